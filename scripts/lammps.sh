@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# Fetches the LAMMPS source from Debian and builds it once into the cache, keyed by version and options.
+# Prints nothing but progress; leaves $CACHE/lammps-<version>/{source,build-<key>}.
+#   usage: lammps.sh [4Feb2025|newest]
+. "$(dirname "$0")/common.sh"
+. "$(dirname "$0")/lammps_version.sh" "${1:-4Feb2025}"
+
+fetch_source() {
+  local scratch uri
+  scratch=$(mktemp -d)
+  uri=$(apt-get indextargets --format '$(RELEASE) $(COMPONENT) $(REPO_URI)' 'Created-By: Packages' |
+    awk -v codename="$(. /etc/os-release && echo "$VERSION_CODENAME")" '$1 == codename && $2 == "main" {print $3; exit}')
+  [ -n "$uri" ] || { echo "no Debian main archive in this machine's apt configuration" >&2; exit 1; }
+
+  mkdir -p "$scratch/lists/partial" "$scratch/cache/archives/partial"
+  echo "deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $uri $LAMMPS_SUITE main" >"$scratch/source.list"
+  cat >"$scratch/apt.conf" <<CONF
+Dir::Etc::SourceList "$scratch/source.list";
+Dir::Etc::SourceParts "-";
+Dir::State::Lists "$scratch/lists";
+Dir::Cache "$scratch/cache";
+APT::Sandbox::User "root";
+CONF
+  export APT_CONFIG=$scratch/apt.conf
+  apt-get update -q
+  (cd "$scratch" && apt-get source -q --tar-only lammps)
+  mkdir -p "$LAMMPS_HOME/source.partial"
+  tar -xf "$scratch"/lammps_*.orig.tar.* -C "$LAMMPS_HOME/source.partial" --strip-components=1
+  rm -rf "$scratch"
+  mv "$LAMMPS_HOME/source.partial" "$LAMMPS_HOME/source"
+}
+
+if [ ! -d "$LAMMPS_HOME/source" ]; then
+  say "fetching the LAMMPS $LAMMPS_VERSION source from Debian"
+  fetch_source
+fi
+
+if [ ! -f "$LAMMPS_BUILD/installed" ]; then
+  say "building LAMMPS $LAMMPS_VERSION once into $LAMMPS_BUILD"
+  cmake -S "$LAMMPS_HOME/source/cmake" -B "$LAMMPS_BUILD" -G Ninja "${LAMMPS_OPTIONS[@]}"
+  cmake --build "$LAMMPS_BUILD" -j "$JOBS"
+  touch "$LAMMPS_BUILD/installed"
+fi

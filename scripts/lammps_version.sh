@@ -1,0 +1,17 @@
+# Which LAMMPS, with which packages and options, and where it is kept. Sourced with the version's name.
+case "$1" in
+  4Feb2025) LAMMPS_VERSION=4Feb2025 LAMMPS_SUITE=trixie ;;
+  newest) LAMMPS_VERSION=newest LAMMPS_SUITE=sid ;;
+  *) echo "LAMMPS version '$1' is not known; use 4Feb2025 or newest" >&2; exit 1 ;;
+esac
+
+LAMMPS_OPTIONS=(
+  -D CMAKE_BUILD_TYPE=RelWithDebInfo -D CMAKE_CXX_FLAGS_RELWITHDEBINFO=-O2
+  -D CMAKE_CXX_COMPILER_LAUNCHER=ccache
+  -D BUILD_SHARED_LIBS=yes -D BUILD_MPI=yes -D BUILD_OMP=no -D FFT=FFTW3
+  -D WITH_JPEG=no -D WITH_PNG=no -D WITH_GZIP=no -D WITH_FFMPEG=no -D WITH_CURL=no
+)
+for package in MOLECULE KSPACE PLUGIN RIGID EXTRA-FIX LATBOLTZ; do LAMMPS_OPTIONS+=(-D "PKG_$package=yes"); done
+
+LAMMPS_HOME=$CACHE/lammps-$LAMMPS_VERSION
+LAMMPS_BUILD=$LAMMPS_HOME/build-$(printf '%s\n' "${LAMMPS_OPTIONS[@]}" | md5sum | cut -c1-8)
