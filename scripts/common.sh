@@ -7,6 +7,7 @@ BUILD=${USER_RBC_BUILD:-$ROOT/build}
 JOBS=${USER_RBC_JOBS:-$(nproc)}
 # Debian's own interpreter: the modules come as Debian packages, and another python3 may be on the PATH.
 PYTHON=/usr/bin/python3
+export CCACHE_DIR=$CACHE/ccache
 
 # Open MPI refuses root and too many ranks by default; containers and small test machines need both.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1

@@ -24,10 +24,15 @@ CONF
   export APT_CONFIG=$scratch/apt.conf
   apt-get update -q
   (cd "$scratch" && apt-get source -q --tar-only lammps)
-  mkdir -p "$LAMMPS_HOME/source.partial"
-  tar -xf "$scratch"/lammps_*.orig.tar.* -C "$LAMMPS_HOME/source.partial" --strip-components=1
+  local partial=$LAMMPS_HOME/source.partial header
+  rm -rf "$partial"
+  mkdir -p "$partial"
+  tar -xf "$scratch"/lammps_*.orig.tar.* -C "$partial"
   rm -rf "$scratch"
-  mv "$LAMMPS_HOME/source.partial" "$LAMMPS_HOME/source"
+  # Some of these archives have a top folder, some have not.
+  header=$(find "$partial" -maxdepth 3 -path '*/src/lammps.h')
+  mv "${header%/src/lammps.h}" "$LAMMPS_HOME/source"
+  rm -rf "$partial"
 }
 
 if [ ! -d "$LAMMPS_HOME/source" ]; then
