@@ -1,0 +1,59 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace fluid {
+
+using Index3 = std::array<int, 3>;
+using Vec3 = std::array<double, 3>;
+
+/// Half-open range of grid indices, lo <= i < hi in each direction.
+struct Box {
+  Index3 lo{0, 0, 0};
+  Index3 hi{0, 0, 0};
+
+  int extent(int d) const { return std::max(0, hi[d] - lo[d]); }
+  std::size_t size() const { return std::size_t(extent(0)) * extent(1) * extent(2); }
+  bool empty() const { return size() == 0; }
+  bool contains(const Index3 &i) const
+  {
+    for (int d = 0; d < 3; ++d)
+      if (i[d] < lo[d] || i[d] >= hi[d]) return false;
+    return true;
+  }
+
+  /// Offset of index (i, j, k) in an array stored over this box, x fastest.
+  std::ptrdiff_t offset(int i, int j, int k) const
+  {
+    return (i - lo[0]) + std::ptrdiff_t(extent(0)) * ((j - lo[1]) + std::ptrdiff_t(extent(1)) * (k - lo[2]));
+  }
+
+  Box shifted(const Index3 &by) const
+  {
+    Box box = *this;
+    for (int d = 0; d < 3; ++d) {
+      box.lo[d] += by[d];
+      box.hi[d] += by[d];
+    }
+    return box;
+  }
+
+  friend bool operator==(const Box &a, const Box &b)
+  {
+    return (a.empty() && b.empty()) || (a.lo == b.lo && a.hi == b.hi);
+  }
+};
+
+inline Box intersection(const Box &a, const Box &b)
+{
+  Box box;
+  for (int d = 0; d < 3; ++d) {
+    box.lo[d] = std::max(a.lo[d], b.lo[d]);
+    box.hi[d] = std::min(a.hi[d], b.hi[d]);
+  }
+  return box.empty() ? Box{} : box;
+}
+
+}    // namespace fluid

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cmath>
+
+namespace fluid {
+
+// Regularised delta functions of one direction. `weights(s, w)` takes a position s in units of the spacing,
+// writes the weights of the `width` grid points first, first + 1, ... and returns `first`. Weights are padded
+// with zeros to four, so that a row of points is always one SIMD register.
+
+/// Four-point kernel of Peskin, Acta Numerica 11 (2002) 479, equations 6.27-6.28.
+struct Peskin4 {
+  static constexpr int width = 4;
+
+  static int weights(double s, double *w)
+  {
+    const double below = std::floor(s), r = s - below;
+    const double root = std::sqrt(1 + 4 * r * (1 - r));
+    w[0] = (3 - 2 * r - root) / 8;
+    w[1] = (3 - 2 * r + root) / 8;
+    w[2] = (1 + 2 * r + root) / 8;
+    w[3] = (1 + 2 * r - root) / 8;
+    return static_cast<int>(below) - 1;
+  }
+};
+
+/// Three-point kernel of Roma, Peskin & Berger, J. Comput. Phys. 153 (1999) 509, equation 22.
+struct Roma3 {
+  static constexpr int width = 3;
+
+  static int weights(double s, double *w)
+  {
+    const double nearest = std::floor(s + 0.5), r = s - nearest;
+    const double root = std::sqrt(1 - 3 * r * r);
+    w[0] = (2 - 3 * r - root) / 6;
+    w[1] = (1 + root) / 3;
+    w[2] = (2 + 3 * r - root) / 6;
+    w[3] = 0;
+    return static_cast<int>(nearest) - 1;
+  }
+};
+
+}    // namespace fluid

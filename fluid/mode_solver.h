@@ -1,0 +1,40 @@
+#pragma once
+
+#include "fourier.h"
+
+#include <memory>
+
+namespace fluid {
+
+/// Velocity of the two plates, along themselves.
+struct Walls {
+  Vec3 lower{0, 0, 0};
+  Vec3 upper{0, 0, 0};
+};
+
+/// What drives the mean flow; a uniform body force density acts on it alone.
+struct Drive {
+  Walls walls;
+  Vec3 body{0, 0, 0};
+};
+
+/// Solves the discrete problem (shift - viscosity lap) u + grad p = f, div u = 0 on the staggered grid,
+/// mode by mode in x and y, exactly to round-off: there is no splitting between velocity and pressure.
+class ModeSolver {
+ public:
+  virtual ~ModeSolver() = default;
+
+  /// Replaces the modes of the force density in `spectrum` by those of the velocity, normalised for the
+  /// unnormalised backward transform. Where `pressure` is given its modes are written too.
+  virtual void solve(const std::array<View<Complex>, 3> &spectrum, const View<Complex> *pressure) = 0;
+};
+
+/// Triply periodic. The mean force is balanced by a uniform pressure gradient and the mean velocity stays
+/// zero where shift is zero (Stokes); otherwise the mean obeys shift <u> = <f>.
+std::unique_ptr<ModeSolver> make_periodic_modes(const Grid &grid, const Box &modes, double viscosity, double shift);
+
+/// Plates at both ends of z (no slip); `drive` is read at every solve.
+std::unique_ptr<ModeSolver> make_walled_modes(const Grid &grid, const Box &modes, double viscosity, double shift,
+                                              const Drive &drive);
+
+}    // namespace fluid

@@ -1,0 +1,89 @@
+#include "plates.h"
+
+namespace fluid {
+
+namespace {
+
+constexpr int layers = Halo::wall_layers;
+
+struct PlanePair {
+  int beyond, inside;
+};
+
+/// The planes of component c beyond the lower (upper) plate and their mirror images; w has a plane of faces on
+/// the plate itself.
+PlanePair mirrored(const Grid &grid, int c, bool upper, int layer)
+{
+  const int n = grid.cells[2];
+  if (c == 2) return upper ? PlanePair{n + layer, n - layer} : PlanePair{-layer, layer};
+  return upper ? PlanePair{n - 1 + layer, n - layer} : PlanePair{-layer, layer - 1};
+}
+
+/// Number of planes of component c beyond a plate that `layers` ghost cells hold.
+int planes_beyond(int c, bool upper) { return c == 2 && upper ? layers - 1 : layers; }
+
+template <typename Visit> void for_each_in_plane(const Box &box, Visit visit)
+{
+  for (int j = box.lo[1]; j < box.hi[1]; ++j)
+    for (int i = box.lo[0]; i < box.hi[0]; ++i) visit(i, j);
+}
+
+bool reaches(const Grid &grid, const Box &box, bool upper)
+{
+  return !box.empty() && (upper ? box.hi[2] > grid.cells[2] : box.lo[2] < 0);
+}
+
+}    // namespace
+
+void reflect_velocity(const Grid &grid, const Walls &walls, const VectorField &velocity)
+{
+  const Box &box = velocity.box();
+  for (bool upper : {false, true}) {
+    if (!reaches(grid, box, upper)) continue;
+    const Vec3 &wall = upper ? walls.upper : walls.lower;
+    for (int c = 0; c < 3; ++c) {
+      const View<double> u = velocity[c];
+      if (c == 2) {
+        const int plate = upper ? grid.cells[2] : 0;
+        for_each_in_plane(box, [&](int i, int j) { u(i, j, plate) = 0; });
+      }
+      for (int layer = 1; layer <= planes_beyond(c, upper); ++layer) {
+        const auto [beyond, inside] = mirrored(grid, c, upper, layer);
+        if (beyond < box.lo[2] || beyond >= box.hi[2]) continue;
+        for_each_in_plane(box, [&, beyond = beyond, inside = inside](int i, int j) {
+          u(i, j, beyond) = 2 * wall[c] - u(i, j, inside);
+        });
+      }
+    }
+  }
+}
+
+void fold_force(const Grid &grid, const VectorField &force, Vec3 &lower, Vec3 &upper_sum)
+{
+  const Box &box = force.box();
+  for (bool upper : {false, true}) {
+    if (!reaches(grid, box, upper)) continue;
+    Vec3 &sum = upper ? upper_sum : lower;
+    for (int c = 0; c < 3; ++c) {
+      const View<double> f = force[c];
+      if (c == 2) {
+        const int plate = upper ? grid.cells[2] : 0;
+        for_each_in_plane(box, [&](int i, int j) {
+          sum[c] += f(i, j, plate);
+          f(i, j, plate) = 0;
+        });
+      }
+      for (int layer = 1; layer <= planes_beyond(c, upper); ++layer) {
+        const auto [beyond, inside] = mirrored(grid, c, upper, layer);
+        if (beyond < box.lo[2] || beyond >= box.hi[2]) continue;
+        for_each_in_plane(box, [&, beyond = beyond, inside = inside](int i, int j) {
+          sum[c] += 2 * f(i, j, beyond);
+          f(i, j, inside) -= f(i, j, beyond);
+          f(i, j, beyond) = 0;
+        });
+      }
+    }
+  }
+}
+
+}    // namespace fluid

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "exchange.h"
+
+#include <complex>
+
+namespace fluid {
+
+/// Moves a distributed array from one set of bricks (rank r owns from[r]) to another (to[r]).
+/// Moves nothing, and needs no memory, where every rank's brick is the same in both.
+template <typename T> class Redistribution {
+ public:
+  Redistribution() = default;
+  Redistribution(MPI_Comm comm, const std::vector<Box> &from, const std::vector<Box> &to) :
+      identity_(from == to)
+  {
+    if (identity_) return;
+    int me;
+    MPI_Comm_rank(comm, &me);
+    std::vector<Transfer> sends, receives;
+    for (int r = 0; r < static_cast<int>(from.size()); ++r) {
+      const Box both_out = intersection(from[me], to[r]);
+      const Box both_in = intersection(from[r], to[me]);
+      if (!both_out.empty()) sends.push_back({r, both_out});
+      if (!both_in.empty()) receives.push_back({r, both_in});
+    }
+    exchange_ = Exchange<T>(comm, sends, receives);
+  }
+
+  bool identity() const { return identity_; }
+
+  template <std::size_t N>
+  void forward(const std::array<View<T>, N> &from, const std::array<View<T>, N> &to)
+  {
+    exchange_.copy(from, to);
+  }
+  template <std::size_t N>
+  void backward(const std::array<View<T>, N> &from, const std::array<View<T>, N> &to)
+  {
+    exchange_.copy_back(from, to);
+  }
+
+  const Traffic &traffic() const { return exchange_.traffic(); }
+  std::size_t bytes() const { return exchange_.bytes(); }
+
+ private:
+  bool identity_ = true;
+  Exchange<T> exchange_;
+};
+
+}    // namespace fluid

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "mode_solver.h"
+
+namespace fluid {
+
+/// Velocity (and pressure) of (shift - viscosity lap) u + grad p = f, div u = 0 for a force density on the
+/// faces of a distributed staggered grid, exact for the discrete equations.
+class StokesSolver {
+ public:
+  /// `storage` is the box over which the fields are stored; `drive` is read at every solve.
+  StokesSolver(const Grid &grid, const Decomposition &decomposition, const Box &storage, double viscosity, double shift,
+               const Drive &drive);
+
+  /// Sets the velocity on this rank's brick from the force on all bricks.
+  void velocity(const VectorField &force, const VectorField &velocity);
+
+  /// Sets the pressure (mean zero) that belongs to the force; costs a solve, and memory at the first call.
+  void pressure(const VectorField &force, const ScalarField &pressure);
+
+  Traffic traffic() const { return fourier_.traffic(); }
+  std::size_t bytes() const { return fourier_.bytes() + pressure_modes_.bytes(); }
+
+ private:
+  std::array<View<Complex>, 3> spectrum() const;
+
+  Fourier fourier_;
+  std::unique_ptr<ModeSolver> modes_;
+  Components<Complex, 1> pressure_modes_;
+};
+
+}    // namespace fluid
