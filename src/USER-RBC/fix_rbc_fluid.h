@@ -1,0 +1,80 @@
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(rbc/fluid,FixRBCFluid);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_RBC_FLUID_H
+#define LMP_FIX_RBC_FLUID_H
+
+#include "fix.h"
+#include "flow.h"
+#include "rbc_number_or_variable.h"
+
+#include <array>
+#include <memory>
+
+namespace LAMMPS_NS {
+
+class FixRBCFluid : public Fix {
+ public:
+  FixRBCFluid(class LAMMPS *, int, char **);
+  ~FixRBCFluid() override;
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void final_integrate() override;
+  void reset_grid() override;
+  double compute_scalar() override;
+  double compute_vector(int) override;
+  double memory_usage() override;
+
+  int get_grid_by_name(const std::string &, int &) override;
+  void *get_grid_by_index(int) override;
+  int get_griddata_by_name(int, const std::string &, int &) override;
+  void *get_griddata_by_index(int) override;
+
+  // used by fix rbc/ib, which drives the flow
+
+  void attach(const std::string &fix_id);
+  fluid::Flow &flow() { return *stokes_flow; }
+  void update_drive();
+  void solved() { ++nsolves; }
+  bigint solves() const { return nsolves; }
+  double smallest_spacing() const;
+
+ private:
+  enum Data { VELOCITY, PRESSURE, FORCE, NDATA };
+
+  std::array<int, 3> cells{};
+  double target_spacing = 0;
+  double viscosity = 0, density = 0;
+  bool walls = false;
+  std::array<NumberOrVariable, 3> lower, upper, body;
+
+  std::unique_ptr<class Grid3d> grid;
+  std::unique_ptr<fluid::Flow> stokes_flow;
+  int ghost_layers = -1;
+  std::string driver;    // ID of the fix rbc/ib that drives the flow, empty if there is none
+  bigint nsolves = 0;
+
+  fluid::FlowMeasures measures;
+  bigint measured_solves = -1;
+
+  std::array<void *, NDATA> data{};    // cell-centred, allocated when first asked for
+  std::array<bigint, NDATA> data_solves{};
+
+  void parse(int, char **);
+  void parse_vector(int, int, char **, const char *, std::array<NumberOrVariable, 3> &);
+  void choose_grid();
+  void build_flow();
+  void solve_alone();
+  void free_data();
+  void fill_velocity_or_force(double ****, const fluid::VectorField &, const std::array<double, 3> &);
+  const fluid::FlowMeasures &measure();
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,313 @@
+#include "fix_rbc_membrane.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "neighbor.h"
+#include "rbc_cell_template.h"
+#include "update.h"
+
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using rbc::Vec3;
+
+// steps over which the volume returns to that of the template
+
+static constexpr double VOLUME_STEPS = 10.0;
+
+/* ---------------------------------------------------------------------- */
+
+FixRBCMembrane::FixRBCMembrane(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
+{
+  scalar_flag = vector_flag = 1;
+  size_vector = 4;
+  global_freq = 1;
+  extscalar = extvector = 1;
+  energy_global_flag = 1;
+  virial_global_flag = 1;
+
+  if (narg < 5) utils::missing_cmd_args(FLERR, "fix rbc/membrane", error);
+  template_id = arg[3];
+  surface = make_cell_template(lmp, template_id, "fix rbc/membrane");
+  model = std::make_unique<rbc::MembraneModel>(*surface, parse(narg, arg));
+  cells = std::make_unique<LocalCells>(lmp, *surface, groupbit, fmt::format("Fix rbc/membrane {}", id));
+  x.resize(surface->size());
+  f.resize(surface->size());
+}
+
+/* ---------------------------------------------------------------------- */
+
+rbc::MembraneParameters FixRBCMembrane::parse(int narg, char **arg)
+{
+  rbc::MembraneParameters parameters;
+  int iarg = 4;
+  const auto need = [&](int n, const std::string &keyword) {
+    if (iarg + n >= narg) utils::missing_cmd_args(FLERR, "fix rbc/membrane " + keyword, error);
+  };
+  const auto not_negative = [&](int at, const std::string &name) {
+    const double value = utils::numeric(FLERR, arg[at], false, lmp);
+    if (!(value >= 0)) error->all(FLERR, at, "Fix rbc/membrane {} value {} must be >= 0", name, arg[at]);
+    return value;
+  };
+  const auto positive = [&](int at, const std::string &name) {
+    const double value = not_negative(at, name);
+    if (value == 0) error->all(FLERR, at, "Fix rbc/membrane {} value {} must be > 0", name, arg[at]);
+    return value;
+  };
+
+  const std::string law = arg[iarg];
+  if (law == "mooney-rivlin") {
+    need(3, law);
+    parameters.law =
+        rbc::MooneyRivlin(positive(5, law + " C1"), not_negative(6, law + " C2"), positive(7, law + " h"));
+    iarg += 4;
+  } else if (law == "neo-hookean") {
+    need(1, law);
+    parameters.law = rbc::MooneyRivlin::neo_hookean(positive(5, law + " Gs"));
+    iarg += 2;
+  } else if (law == "skalak") {
+    need(2, law);
+    parameters.law = rbc::Skalak(positive(5, law + " Gs"), not_negative(6, law + " C"));
+    iarg += 3;
+  } else
+    error->all(FLERR, iarg, "Unknown fix rbc/membrane law {}; allowed: mooney-rivlin, neo-hookean, skalak", law);
+
+  while (iarg < narg) {
+    const std::string keyword = arg[iarg];
+    if (keyword == "bending") {
+      need(1, keyword);
+      parameters.bending = not_negative(iarg + 1, keyword);
+      iarg += 2;
+      if (iarg < narg && strcmp(arg[iarg], "reference") == 0) {
+        parameters.reference_curvature = true;
+        ++iarg;
+      } else if (iarg < narg && utils::is_double(arg[iarg])) {
+        parameters.reference_curvature = false;
+        parameters.spontaneous_curvature = utils::numeric(FLERR, arg[iarg], false, lmp);
+        ++iarg;
+      }
+    } else if (keyword == "area") {
+      need(2, keyword);
+      parameters.global_area = not_negative(iarg + 1, "area kglobal");
+      parameters.local_area = not_negative(iarg + 2, "area klocal");
+      iarg += 3;
+    } else if (keyword == "volume") {
+      need(1, keyword);
+      const std::string value = arg[iarg + 1];
+      volume_kept = value == "yes";
+      if (value != "yes" && value != "no") {
+        if (!utils::is_double(value))
+          error->all(FLERR, iarg + 1, "Fix rbc/membrane volume value {} must be yes, no or a modulus", value);
+        parameters.volume = not_negative(iarg + 1, keyword);
+      }
+      iarg += 2;
+    } else
+      error->all(FLERR, iarg, "Unknown fix rbc/membrane keyword {}; allowed: bending, area, volume", keyword);
+  }
+  return parameters;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixRBCMembrane::setmask()
+{
+  return POST_NEIGHBOR | POST_FORCE;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCMembrane::init()
+{
+  if (domain->triclinic) error->all(FLERR, "Fix rbc/membrane requires an orthogonal simulation box");
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Fix rbc/membrane cannot be used with run_style respa");
+  cells->find();
+
+  // vertices of other ranks are needed up to two edges away, stretched by half
+
+  const double reach = (model->parameters().bending > 0 ? 3 : 2) * surface->longest_edge;
+  if (comm->cutghostuser == 0) comm->cutghostuser = reach + neighbor->skin;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCMembrane::setup_post_neighbor()
+{
+  post_neighbor();
+}
+
+void FixRBCMembrane::post_neighbor()
+{
+  cells->bind(model->parameters().bending > 0);
+  const std::size_t count = cells->cells().size();
+  sizes.resize(2 * count);
+  volume_rates.resize(count);
+  volume_gradient.resize(volume_kept ? count * surface->size() : surface->size());
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCMembrane::setup(int vflag)
+{
+  post_force(vflag);
+}
+
+void FixRBCMembrane::post_force(int vflag)
+{
+  stopwatch.start();
+  v_init(vflag);
+  const bool measure = model->needs_size() || neighbor->ago == 0;
+  if (measure) measure_cells();
+  add_forces(vflag);
+  stopwatch.stop();
+}
+
+/* ----------------------------------------------------------------------
+   area and volume of all cells here
+------------------------------------------------------------------------- */
+
+void FixRBCMembrane::measure_cells()
+{
+  const auto &local = cells->cells();
+  std::vector<Vec3> unused(surface->size());
+  for (std::size_t c = 0; c < local.size(); ++c) {
+    cells->gather(local[c], x);
+    const rbc::CellSize share = model->measure(*local[c].elements, x, unused);
+    sizes[2 * c] = share.area;
+    sizes[2 * c + 1] = share.volume;
+    const int inverted = model->find_inverted(*local[c].elements, x);
+    if (inverted >= 0) stop(local[c], fmt::format("triangle {} is inverted", inverted + 1));
+  }
+  cells->sum_shared(sizes, 2);
+  for (std::size_t c = 0; c < local.size(); ++c)
+    if (sizes[2 * c + 1] <= 0) stop(local[c], "the cell turned inside out");
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCMembrane::add_forces(int vflag)
+{
+  double **const force = atom->f;
+  const int size = surface->size();
+  const auto &local = cells->cells();
+  energy = {};
+  energy_step = -1;
+  for (std::size_t c = 0; c < local.size(); ++c) {
+    const LocalCells::Cell &cell = local[c];
+    cells->gather(cell, x);
+    const rbc::MembraneEnergy share = model->forces(*cell.elements, x, {sizes[2 * c], sizes[2 * c + 1]}, f);
+    if (!std::isfinite(share.total())) stop(cell, "the energy of the membrane is not a number");
+    energy.sheet += share.sheet;
+    energy.bending += share.bending;
+    energy.area += share.area;
+    energy.volume += share.volume;
+    for (int v = 0; v < size; ++v) {
+      if (!cell.elements->owned[v]) continue;
+      double *const at = force[cell.atom[v]];
+      for (int d = 0; d < 3; ++d) at[d] += f[v][d];
+    }
+    if (!evflag) continue;
+    for (int v = 0; v < size; ++v) {
+      if (!cell.elements->owned[v]) continue;
+      double virial_of_vertex[6] = {x[v][0] * f[v][0], x[v][1] * f[v][1], x[v][2] * f[v][2],
+                                    x[v][0] * f[v][1], x[v][0] * f[v][2], x[v][1] * f[v][2]};
+      v_tally(cell.atom[v], virial_of_vertex);
+    }
+  }
+  (void) vflag;
+}
+
+/* ----------------------------------------------------------------------
+   subtracts from the velocities the part along the volume gradient, so that
+     sum_i dV/dx_i . v_i = (V_template - V) / (VOLUME_STEPS dt)
+   the gradients of a closed surface sum to zero and exert no torque: neither the cell's velocity nor its rotation
+   changes. A predictor stage (new_step) sets the rate that the stages after it keep.
+------------------------------------------------------------------------- */
+
+void FixRBCMembrane::keep_volume(double dt, bool new_step)
+{
+  stopwatch.start();
+  double **const v = atom->v;
+  const int size = surface->size();
+  const auto &local = cells->cells();
+  sums.assign(3 * local.size(), 0.0);    // flux, squared gradient, volume
+  for (std::size_t c = 0; c < local.size(); ++c) {
+    const LocalCells::Cell &cell = local[c];
+    cells->gather(cell, x);
+    f.swap(x);
+    const rbc::CellSize share = model->measure(*cell.elements, f, x);
+    Vec3 *const gradient = &volume_gradient[c * size];
+    std::copy(x.begin(), x.end(), gradient);
+    for (int i = 0; i < size; ++i) {
+      if (!cell.elements->owned[i]) continue;
+      sums[3 * c] += gradient[i].dot(Vec3(v[cell.atom[i]]));
+      sums[3 * c + 1] += gradient[i].squaredNorm();
+    }
+    sums[3 * c + 2] = share.volume;
+  }
+  cells->sum_shared(sums, 3);
+
+  for (std::size_t c = 0; c < local.size(); ++c) {
+    const LocalCells::Cell &cell = local[c];
+    if (!(sums[3 * c + 2] > 0)) stop(cell, "the cell turned inside out");
+    if (new_step) volume_rates[c] = (surface->volume - sums[3 * c + 2]) / (VOLUME_STEPS * dt);
+    const double factor = (volume_rates[c] - sums[3 * c]) / sums[3 * c + 1];
+    const Vec3 *const gradient = &volume_gradient[c * size];
+    for (int i = 0; i < size; ++i) {
+      if (!cell.elements->owned[i]) continue;
+      double *const velocity = v[cell.atom[i]];
+      for (int d = 0; d < 3; ++d) velocity[d] += factor * gradient[i][d];
+    }
+  }
+  stopwatch.stop();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCMembrane::stop(const LocalCells::Cell &cell, const std::string &what)
+{
+  Vec3 centre = Vec3::Zero();
+  int count = 0;
+  for (int v = 0; v < surface->size(); ++v)
+    if (cell.elements->owned[v]) {
+      centre += Vec3(atom->x[cell.atom[v]]);
+      ++count;
+    }
+  centre /= count;
+  error->one(FLERR, "Fix rbc/membrane {}: {} at step {}: cell with molecule ID {} near ({:.6g}, {:.6g}, {:.6g})", id, what,
+             update->ntimestep, cells->molecules()[cell.index], centre[0], centre[1], centre[2]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+const rbc::MembraneEnergy &FixRBCMembrane::total_energy()
+{
+  if (energy_step != update->ntimestep) {
+    MPI_Allreduce(&energy, &energy_all, 4, MPI_DOUBLE, MPI_SUM, world);
+    energy_step = update->ntimestep;
+  }
+  return energy_all;
+}
+
+double FixRBCMembrane::compute_scalar()
+{
+  return total_energy().total();
+}
+
+double FixRBCMembrane::compute_vector(int n)
+{
+  const rbc::MembraneEnergy &parts = total_energy();
+  const double part[4] = {parts.sheet, parts.bending, parts.area, parts.volume};
+  return part[n];
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixRBCMembrane::memory_usage()
+{
+  const double vertices = static_cast<double>(cells->cells().size()) * surface->size();
+  return vertices * (sizeof(int) + sizeof(Vec3)) + volume_gradient.size() * sizeof(Vec3);
+}

@@ -1,0 +1,68 @@
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(rbc/membrane,FixRBCMembrane);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_RBC_MEMBRANE_H
+#define LMP_FIX_RBC_MEMBRANE_H
+
+#include "fix.h"
+#include "rbc_local_cells.h"
+#include "stopwatch.h"
+
+#include <memory>
+
+namespace LAMMPS_NS {
+
+class FixRBCMembrane : public Fix {
+ public:
+  FixRBCMembrane(class LAMMPS *, int, char **);
+  int setmask() override;
+  void init() override;
+  void setup_post_neighbor() override;
+  void post_neighbor() override;
+  void setup(int) override;
+  void post_force(int) override;
+  double compute_scalar() override;
+  double compute_vector(int) override;
+  double memory_usage() override;
+
+  // used by fix rbc/ib: takes from the velocities what would change the cells' volumes
+
+  bool keeps_volume() const { return volume_kept; }
+  void keep_volume(double dt, bool new_step);
+
+  // used by computes and output of whole cells
+
+  const rbc::SurfaceTemplate &shape() const { return *surface; }
+  LocalCells &local_cells() { return *cells; }
+
+  rbc::Stopwatch stopwatch;
+
+ private:
+  std::string template_id;
+  std::unique_ptr<rbc::SurfaceTemplate> surface;
+  std::unique_ptr<rbc::MembraneModel> model;
+  std::unique_ptr<LocalCells> cells;
+  bool volume_kept = true;
+
+  std::vector<rbc::Vec3> x, f;
+  std::vector<rbc::Vec3> volume_gradient;     // of the vertices of all cells here, kept for keep_volume()
+  std::vector<double> sizes;                  // area and volume of each cell here
+  std::vector<double> volume_rates, sums;
+  rbc::MembraneEnergy energy, energy_all;
+  bigint energy_step = -1;
+
+  rbc::MembraneParameters parse(int, char **);
+  void measure_cells();
+  void add_forces(int);
+  void check_cell(const LocalCells::Cell &, const rbc::MembraneEnergy &, bool);
+  [[noreturn]] void stop(const LocalCells::Cell &, const std::string &);
+  const rbc::MembraneEnergy &total_energy();
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+namespace rbc {
+
+using Vec3 = Eigen::Vector3d;
+
+/// Inverse metric and area of a triangle in the stress-free shape, in the basis of its edges from corner 0.
+struct ReferenceTriangle {
+  double g11, g12, g22;
+  double area;
+};
+
+/// Edge from a to b with the two triangles it joins: (a, b, c) to its left and (b, a, d) to its right, seen from
+/// outside.
+struct Hinge {
+  int a, b, c, d;
+  int left, right;
+};
+
+/// Closed oriented triangulated surface: topology and stress-free shape shared by all cells made from it.
+/// Lengths in the units of the coordinates.
+class SurfaceTemplate {
+ public:
+  using Corners = std::array<int, 3>;
+
+  /// Throws std::invalid_argument, saying why, unless the triangles form one closed surface that is oriented
+  /// right-handed outward and uses every vertex.
+  SurfaceTemplate(std::vector<Vec3> vertices, std::vector<Corners> triangles);
+
+  int size() const { return static_cast<int>(vertices.size()); }
+
+  std::vector<Vec3> vertices;
+  std::vector<Corners> triangles;
+  std::vector<Hinge> hinges;
+  std::vector<ReferenceTriangle> reference;
+  std::vector<double> curvature;                ///< mean curvature of the stress-free shape at each vertex
+  std::vector<std::vector<int>> neighbours;     ///< vertices that share an edge
+  std::vector<std::vector<int>> fans;           ///< triangles around each vertex
+  double area = 0, volume = 0;
+  double longest_edge = 0, mean_edge = 0;
+};
+
+}    // namespace rbc
