@@ -154,6 +154,17 @@ void FixRBCFluid::choose_grid()
   }
 }
 
+/* ----------------------------------------------------------------------
+   a vertex leaves its subdomain by half the skin before atoms migrate, and within a step by half a cell more
+------------------------------------------------------------------------- */
+
+int FixRBCFluid::layers_needed() const
+{
+  double layers = 0;
+  for (int d = 0; d < 3; ++d) layers = std::max(layers, 0.5 * neighbor->skin / (domain->prd[d] / cells[d]) + 0.5);
+  return static_cast<int>(std::ceil(layers)) + KERNEL_LAYERS;
+}
+
 /* ---------------------------------------------------------------------- */
 
 void FixRBCFluid::build_flow()
@@ -175,11 +186,7 @@ void FixRBCFluid::build_flow()
   }
   staggered.walls = walls;
 
-  // a vertex leaves its subdomain by half the skin before atoms migrate, and by as much again within a step
-
-  double layers = 0;
-  for (int d = 0; d < 3; ++d) layers = std::max(layers, neighbor->skin / staggered.spacing[d]);
-  ghost_layers = static_cast<int>(std::ceil(layers)) + KERNEL_LAYERS;
+  ghost_layers = layers_needed();
   stokes_flow =
       std::make_unique<fluid::Flow>(staggered, fluid::Decomposition(world, brick), ghost_layers, viscosity);
   measured_solves = -1;
@@ -205,9 +212,7 @@ void FixRBCFluid::init()
     for (const auto &component : *vector) component.check(lmp, "fix rbc/fluid");
 
   if (!driver.empty() && !modify->get_fix_by_id(driver)) driver.clear();
-  double layers = 0;
-  for (double spacing : stokes_flow->grid().spacing) layers = std::max(layers, neighbor->skin / spacing);
-  if (static_cast<int>(std::ceil(layers)) + KERNEL_LAYERS != ghost_layers) build_flow();
+  if (layers_needed() != ghost_layers) build_flow();
 }
 
 /* ---------------------------------------------------------------------- */

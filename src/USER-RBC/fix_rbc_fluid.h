@@ -67,6 +67,7 @@ class FixRBCFluid : public Fix {
   void parse(int, char **);
   void parse_vector(int, int, char **, const char *, std::array<NumberOrVariable, 3> &);
   void choose_grid();
+  int layers_needed() const;
   void build_flow();
   void solve_alone();
   void free_data();

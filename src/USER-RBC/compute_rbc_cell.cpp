@@ -1,0 +1,167 @@
+#include "compute_rbc_cell.h"
+
+#include "atom.h"
+#include "cell_shape.h"
+#include "error.h"
+#include "fix_rbc_membrane.h"
+#include "memory.h"
+#include "modify.h"
+#include "update.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+using rbc::Vec3;
+
+static constexpr int NCOLS = 19;
+
+// sums over a cell, in its own coordinates: area, volume, first and second moments, velocity, vertices,
+// and the cell's origin times the vertices
+
+enum { AREA, VOLUME, FIRST, SECOND = FIRST + 3, SPEED = SECOND + 6, COUNT = SPEED + 3, ORIGIN, NSUMS = ORIGIN + 3 };
+
+/* ---------------------------------------------------------------------- */
+
+ComputeRBCCell::ComputeRBCCell(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg)
+{
+  if (narg > 3) error->all(FLERR, 3, "Unknown compute rbc/cell argument {}: it takes none", arg[3]);
+  array_flag = 1;
+  size_array_cols = NCOLS;
+  size_array_rows = 0;
+  size_array_rows_variable = 1;
+  extarray = 0;
+}
+
+ComputeRBCCell::~ComputeRBCCell()
+{
+  memory->destroy(array);
+}
+
+/* ----------------------------------------------------------------------
+   a row for each cell of the fixes rbc/membrane whose atoms are all in the group
+------------------------------------------------------------------------- */
+
+void ComputeRBCCell::init()
+{
+  membranes.clear();
+  for (Fix *fix : modify->get_fix_by_style("^rbc/membrane$"))
+    membranes.push_back(dynamic_cast<FixRBCMembrane *>(fix));
+  if (membranes.empty()) error->all(FLERR, "Compute rbc/cell {} needs a fix rbc/membrane: it knows the cells", id);
+
+  molecules.clear();
+  for (FixRBCMembrane *fix : membranes) {
+    fix->local_cells().find();
+    const auto &ids = fix->local_cells().molecules();
+    molecules.insert(molecules.end(), ids.begin(), ids.end());
+  }
+  std::sort(molecules.begin(), molecules.end());
+  if (std::adjacent_find(molecules.begin(), molecules.end()) != molecules.end())
+    error->all(FLERR, "Compute rbc/cell {}: molecule ID {} belongs to more than one fix rbc/membrane", id,
+               *std::adjacent_find(molecules.begin(), molecules.end()));
+
+  if (igroup != 0) {
+    std::vector<int> outside(molecules.size());
+    for (int i = 0; i < atom->nlocal; ++i) {
+      const int row = row_of(atom->molecule[i]);
+      if (row >= 0 && !(atom->mask[i] & groupbit)) outside[row] = 1;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, outside.data(), static_cast<int>(outside.size()), MPI_INT, MPI_MAX, world);
+    std::vector<tagint> inside;
+    for (std::size_t n = 0; n < molecules.size(); ++n)
+      if (!outside[n]) inside.push_back(molecules[n]);
+    molecules = std::move(inside);
+  }
+
+  const int rows = static_cast<int>(molecules.size());
+  if (rows != size_array_rows || !array) {
+    size_array_rows = rows;
+    memory->destroy(array);
+    memory->create(array, std::max(rows, 1), NCOLS, "rbc/cell:array");
+  }
+}
+
+int ComputeRBCCell::row_of(tagint molecule) const
+{
+  const auto found = std::lower_bound(molecules.begin(), molecules.end(), molecule);
+  return found != molecules.end() && *found == molecule ? static_cast<int>(found - molecules.begin()) : -1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeRBCCell::compute_array()
+{
+  invoked_array = update->ntimestep;
+  sums.assign(molecules.size() * NSUMS, 0.0);
+  for (FixRBCMembrane *fix : membranes) add_sums(fix);
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, world);
+
+  for (std::size_t n = 0; n < molecules.size(); ++n) {
+    const double *s = &sums[n * NSUMS];
+    rbc::VolumeMoments moments;
+    moments.area = s[AREA];
+    moments.volume = s[VOLUME];
+    moments.first = Vec3(s + FIRST);
+    moments.second << s[SECOND], s[SECOND + 3], s[SECOND + 4],    //
+        s[SECOND + 3], s[SECOND + 1], s[SECOND + 5],              //
+        s[SECOND + 4], s[SECOND + 5], s[SECOND + 2];
+    const rbc::InertiaEllipsoid ellipsoid(moments);
+    const Vec3 centre = moments.centre() + Vec3(s + ORIGIN) / s[COUNT];
+
+    double *row = array[n];
+    row[0] = static_cast<double>(molecules[n]);
+    row[4] = moments.area;
+    row[5] = moments.volume;
+    row[6] = ellipsoid.deformation();
+    for (int d = 0; d < 3; ++d) {
+      row[1 + d] = centre[d];
+      row[7 + d] = ellipsoid.semi_axes[d];
+      row[10 + d] = ellipsoid.long_axis[d];
+      row[13 + d] = ellipsoid.short_axis[d];
+      row[16 + d] = s[SPEED + d] / s[COUNT];
+    }
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeRBCCell::add_sums(FixRBCMembrane *fix)
+{
+  LocalCells &cells = fix->local_cells();
+  const rbc::SurfaceTemplate &shape = fix->shape();
+  std::vector<Vec3> x(shape.size());
+  for (const LocalCells::Cell &cell : cells.cells()) {
+    const int row = row_of(cells.molecules()[cell.index]);
+    if (row < 0) continue;
+    cells.gather(cell, x);
+    rbc::VolumeMoments moments;
+    for (int t : cell.elements->triangles) {
+      const auto &[i, j, k] = shape.triangles[t];
+      if (cell.elements->owned[i]) moments.add(x[i], x[j], x[k]);
+    }
+    double *s = &sums[std::size_t(row) * NSUMS];
+    s[AREA] += moments.area;
+    s[VOLUME] += moments.volume;
+    for (int d = 0; d < 3; ++d) {
+      s[FIRST + d] += moments.first[d];
+      s[SECOND + d] += moments.second(d, d);
+    }
+    s[SECOND + 3] += moments.second(0, 1);
+    s[SECOND + 4] += moments.second(0, 2);
+    s[SECOND + 5] += moments.second(1, 2);
+    int owned = 0;
+    for (int v = 0; v < shape.size(); ++v) {
+      if (!cell.elements->owned[v]) continue;
+      ++owned;
+      for (int d = 0; d < 3; ++d) s[SPEED + d] += atom->v[cell.atom[v]][d];
+    }
+    s[COUNT] += owned;
+    for (int d = 0; d < 3; ++d) s[ORIGIN + d] += owned * cell.origin[d];
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ComputeRBCCell::memory_usage()
+{
+  return static_cast<double>(molecules.size()) * (NSUMS + NCOLS) * sizeof(double);
+}

@@ -1,0 +1,36 @@
+#ifdef COMPUTE_CLASS
+// clang-format off
+ComputeStyle(rbc/cell,ComputeRBCCell);
+// clang-format on
+#else
+
+#ifndef LMP_COMPUTE_RBC_CELL_H
+#define LMP_COMPUTE_RBC_CELL_H
+
+#include "compute.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class ComputeRBCCell : public Compute {
+ public:
+  ComputeRBCCell(class LAMMPS *, int, char **);
+  ~ComputeRBCCell() override;
+  void init() override;
+  void compute_array() override;
+  double memory_usage() override;
+
+ private:
+  std::vector<class FixRBCMembrane *> membranes;
+  std::vector<tagint> molecules;    // of each row
+  std::vector<double> sums;
+
+  void add_sums(class FixRBCMembrane *);
+  int row_of(tagint) const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif
