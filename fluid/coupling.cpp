@@ -65,7 +65,13 @@ template <typename Kernel> struct Stencil {
 
 Vec3 inverse(const Vec3 &spacing) { return {1 / spacing[0], 1 / spacing[1], 1 / spacing[2]}; }
 
-bool finite(const double *x) { return std::isfinite(x[0] + x[1] + x[2]); }
+/// The position is a number and so near the grid that indices are integers.
+bool near(const double *x, const Grid &grid, const Vec3 &inverse_spacing)
+{
+  for (int d = 0; d < 3; ++d)
+    if (!(std::abs((x[d] - grid.origin[d]) * inverse_spacing[d]) < 1e9)) return false;
+  return true;
+}
 
 template <typename Kernel>
 int spread_with(const Grid &grid, const Markers &markers, const double *position, const double *applied, double factor,
@@ -76,7 +82,7 @@ int spread_with(const Grid &grid, const Markers &markers, const double *position
   const auto fields = force.views();
   for (int n = 0; n < markers.count; ++n) {
     const std::ptrdiff_t i = 3 * std::ptrdiff_t(markers.index[n]);
-    if (!finite(position + i)) return markers.index[n];
+    if (!near(position + i, grid, inverse_spacing)) return markers.index[n];
     const Stencil<Kernel> stencil(position + i, grid, inverse_spacing);
     if (!stencil.inside(force.box())) return markers.index[n];
     for (int c = 0; c < 3; ++c) {

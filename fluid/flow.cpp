@@ -127,8 +127,9 @@ void Flow::measure_tractions(FlowMeasures &measures) const
     measures.lower_traction[c] += 2 * viscosity_ / h * (sums[c] * per_plane - drive.walls.lower[c]);
     measures.upper_traction[c] += 2 * viscosity_ / h * (sums[2 + c] * per_plane - drive.walls.upper[c]);
   }
-  measures.lower_traction[2] += mean;
-  measures.upper_traction[2] += pressure - mean;
+  const double weight = h / 2 * drive.body[2];    // of the half cells at the plates
+  measures.lower_traction[2] += weight + mean;
+  measures.upper_traction[2] += weight + pressure - mean;
 }
 
 Traffic Flow::traffic() const

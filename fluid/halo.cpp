@@ -14,7 +14,7 @@ Box with_ghosts(const Grid &grid, const Box &brick, int width)
   }
   if (grid.walls) {
     box.lo[2] = std::max(box.lo[2], -Halo::wall_layers);
-    box.hi[2] = std::min(box.hi[2], grid.cells[2] + Halo::wall_layers);
+    box.hi[2] = std::min(box.hi[2], grid.cells[2] + Halo::wall_layers + 1);
   }
   return box;
 }

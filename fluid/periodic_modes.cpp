@@ -27,6 +27,7 @@ class PeriodicModes : public ModeSolver {
 
   void solve(const std::array<View<Complex>, 3> &spectrum, const View<Complex> *pressure) override
   {
+    if (modes_.empty()) return;
     for (int ky = modes_.lo[1]; ky < modes_.hi[1]; ++ky) {
       for (const auto &component : spectrum) transform(forward_, component, ky);
       for (int kz = 0; kz < grid_.cells[2]; ++kz) project_row(spectrum, pressure, ky, kz);

@@ -19,8 +19,8 @@ PlanePair mirrored(const Grid &grid, int c, bool upper, int layer)
   return upper ? PlanePair{n - 1 + layer, n - layer} : PlanePair{-layer, layer - 1};
 }
 
-/// Number of planes of component c beyond a plate that `layers` ghost cells hold.
-int planes_beyond(int c, bool upper) { return c == 2 && upper ? layers - 1 : layers; }
+/// Number of planes of component c beyond a plate that the ghost cells hold.
+int planes_beyond(int c, bool upper) { return c != 2 && upper ? layers + 1 : layers; }
 
 template <typename Visit> void for_each_in_plane(const Box &box, Visit visit)
 {
@@ -28,9 +28,10 @@ template <typename Visit> void for_each_in_plane(const Box &box, Visit visit)
     for (int i = box.lo[0]; i < box.hi[0]; ++i) visit(i, j);
 }
 
+/// The box holds the faces on the plate.
 bool reaches(const Grid &grid, const Box &box, bool upper)
 {
-  return !box.empty() && (upper ? box.hi[2] > grid.cells[2] : box.lo[2] < 0);
+  return !box.empty() && (upper ? box.hi[2] > grid.cells[2] : box.lo[2] <= 0);
 }
 
 }    // namespace
