@@ -19,6 +19,7 @@ class ComputeRBCCell : public Compute {
   ~ComputeRBCCell() override;
   void init() override;
   void compute_array() override;
+  int lock_length() override { return size_array_rows; }
   double memory_usage() override;
 
  private:

@@ -39,7 +39,10 @@ FixRBCFluid::FixRBCFluid(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg
     error->all(FLERR, "Fix rbc/fluid requires z to be periodic or fixed (boundary p or f)");
 
   parse(narg, arg);
+  std::copy_n(domain->boxlo, 3, box_lo);
+  std::copy_n(domain->boxhi, 3, box_hi);
   choose_grid();
+  check_grid();
   build_flow();
 }
 
@@ -133,6 +136,12 @@ void FixRBCFluid::parse(int narg, char **arg)
   walls = !domain->zperiodic;
   if (walls && !(wall_given[0] && wall_given[1]))
     error->all(FLERR, "Fix rbc/fluid needs wall zlo and wall zhi where z is not periodic");
+  if (!walls && comm->me == 0)
+    for (const NumberOrVariable &component : body)
+      if (component.is_variable() || component.value(lmp) != 0) {
+        error->warning(FLERR, "Fix rbc/fluid body has no effect in a triply periodic box: a pressure gradient balances it");
+        break;
+      }
   if (target_spacing == 0 && cells[0] == 0) error->all(FLERR, "Fix rbc/fluid needs dx or grid");
   if (target_spacing > 0 && cells[0] > 0) error->all(FLERR, "Fix rbc/fluid takes either dx or grid, not both");
   if (viscosity == 0) error->all(FLERR, "Fix rbc/fluid needs viscosity");
@@ -147,11 +156,27 @@ void FixRBCFluid::choose_grid()
 {
   if (target_spacing == 0) return;
   for (int d = 0; d < 3; ++d) {
-    cells[d] = static_cast<int>(std::lround(domain->prd[d] / target_spacing));
-    if (cells[d] < MIN_CELLS)
+    const double wanted = std::round(domain->prd[d] / target_spacing);
+    if (wanted < MIN_CELLS)
       error->all(FLERR, "Fix rbc/fluid dx {} leaves {} cells in {}; at least {} are needed (dx at most {})",
-                 target_spacing, cells[d], "xyz"[d], MIN_CELLS, domain->prd[d] / MIN_CELLS);
+                 target_spacing, wanted, "xyz"[d], MIN_CELLS, domain->prd[d] / MIN_CELLS);
+    cells[d] = static_cast<int>(std::min<double>(wanted, MAXSMALLINT));
   }
+}
+
+/* ----------------------------------------------------------------------
+   LAMMPS counts the cells of a rank in an int
+------------------------------------------------------------------------- */
+
+void FixRBCFluid::check_grid() const
+{
+  const double each = double(cells[0]) * cells[1] * cells[2] / comm->nprocs;
+  if (each > 0.5 * MAXSMALLINT)
+    error->all(FLERR, "Fix rbc/fluid {} {} asks for {:.3g} cells per MPI task; at most {:.3g} are possible",
+               target_spacing > 0 ? "dx" : "grid",
+               target_spacing > 0 ? fmt::format("{}", target_spacing)
+                                  : fmt::format("{} {} {}", cells[0], cells[1], cells[2]),
+               each, 0.5 * MAXSMALLINT);
 }
 
 /* ----------------------------------------------------------------------
@@ -190,6 +215,7 @@ void FixRBCFluid::build_flow()
   stokes_flow =
       std::make_unique<fluid::Flow>(staggered, fluid::Decomposition(world, brick), ghost_layers, viscosity);
   measured_solves = -1;
+  current = false;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -205,7 +231,11 @@ void FixRBCFluid::init()
 {
   if (modify->get_fix_by_style("^rbc/fluid$").size() > 1)
     error->all(FLERR, "Only one fix rbc/fluid may be defined");
-  if (domain->box_change) error->all(FLERR, "Fix rbc/fluid cannot be used with a changing simulation box");
+  if (domain->box_change_size || domain->box_change_shape)
+    error->all(FLERR, "Fix rbc/fluid cannot be used with a changing simulation box");
+  for (int d = 0; d < 3; ++d)
+    if (domain->boxlo[d] != box_lo[d] || domain->boxhi[d] != box_hi[d])
+      error->all(FLERR, "Fix rbc/fluid {}: the simulation box has changed since the fix was defined", id);
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix rbc/fluid cannot be used with run_style respa");
   for (const auto *vector : {&lower, &upper, &body})
@@ -236,6 +266,7 @@ void FixRBCFluid::setup(int /*vflag*/)
 void FixRBCFluid::final_integrate()
 {
   if (!driver.empty()) return;
+  if (!current) return solve_alone();
   for (const auto *vector : {&lower, &upper, &body})
     for (const auto &component : *vector)
       if (component.is_variable()) return solve_alone();
@@ -247,25 +278,36 @@ void FixRBCFluid::final_integrate()
 
 void FixRBCFluid::solve_alone()
 {
-  update_drive();
+  update_drive(false);
   stokes_flow->clear_force();
   stokes_flow->solve();
   stokes_flow->share_velocity();
   solved();
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   variables know the end of a step only: in its middle they count as the mean of its ends
+------------------------------------------------------------------------- */
 
-void FixRBCFluid::update_drive()
+void FixRBCFluid::update_drive(bool middle)
 {
   modify->clearstep_compute();
-  fluid::Drive &drive = stokes_flow->drive;
+  fluid::Drive now;
   for (int d = 0; d < 3; ++d) {
-    drive.walls.lower[d] = lower[d].value(lmp);
-    drive.walls.upper[d] = upper[d].value(lmp);
-    drive.body[d] = body[d].value(lmp);
+    now.walls.lower[d] = lower[d].value(lmp);
+    now.walls.upper[d] = upper[d].value(lmp);
+    now.body[d] = body[d].value(lmp) * force->ftm2v;
   }
   modify->addstep_compute(update->ntimestep + 1);
+
+  fluid::Drive &drive = stokes_flow->drive;
+  if (middle)
+    for (int d = 0; d < 3; ++d) {
+      now.walls.lower[d] = 0.5 * (now.walls.lower[d] + drive.walls.lower[d]);
+      now.walls.upper[d] = 0.5 * (now.walls.upper[d] + drive.walls.upper[d]);
+      now.body[d] = 0.5 * (now.body[d] + drive.body[d]);
+    }
+  drive = now;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -277,7 +319,7 @@ double FixRBCFluid::smallest_spacing() const
 }
 
 /* ----------------------------------------------------------------------
-   load balancing moved the subdomains; steady flow has no history to carry over
+   load balancing moved the subdomains; steady flow has no history to carry over and is solved anew in this step
 ------------------------------------------------------------------------- */
 
 void FixRBCFluid::reset_grid()
@@ -375,10 +417,11 @@ void *FixRBCFluid::get_griddata_by_index(int index)
       for (int j = lo[1]; j < hi[1]; ++j)
         for (int i = lo[0]; i < hi[0]; ++i) p[k][j][i] = pressure(i, j, k) * to_pressure;
   } else if (index == VELOCITY)
-    fill_velocity_or_force(static_cast<double ****>(data[index]), stokes_flow->velocity(), {0, 0, 0});
+    fill_velocity_or_force(static_cast<double ****>(data[index]), stokes_flow->velocity(), {0, 0, 0}, 1.0);
   else {
     stokes_flow->share_force();
-    fill_velocity_or_force(static_cast<double ****>(data[index]), stokes_flow->force(), stokes_flow->drive.body);
+    fill_velocity_or_force(static_cast<double ****>(data[index]), stokes_flow->force(), stokes_flow->drive.body,
+                           1.0 / force->ftm2v);
   }
   return data[index];
 }
@@ -388,16 +431,16 @@ void *FixRBCFluid::get_griddata_by_index(int index)
 ------------------------------------------------------------------------- */
 
 void FixRBCFluid::fill_velocity_or_force(double ****centred, const fluid::VectorField &field,
-                                         const std::array<double, 3> &uniform)
+                                         const std::array<double, 3> &uniform, double scale)
 {
   const auto &[lo, hi] = stokes_flow->brick();
   const auto u = field.views();
   for (int k = lo[2]; k < hi[2]; ++k)
     for (int j = lo[1]; j < hi[1]; ++j)
       for (int i = lo[0]; i < hi[0]; ++i) {
-        centred[k][j][i][0] = 0.5 * (u[0](i, j, k) + u[0](i + 1, j, k)) + uniform[0];
-        centred[k][j][i][1] = 0.5 * (u[1](i, j, k) + u[1](i, j + 1, k)) + uniform[1];
-        centred[k][j][i][2] = 0.5 * (u[2](i, j, k) + u[2](i, j, k + 1)) + uniform[2];
+        centred[k][j][i][0] = scale * (0.5 * (u[0](i, j, k) + u[0](i + 1, j, k)) + uniform[0]);
+        centred[k][j][i][1] = scale * (0.5 * (u[1](i, j, k) + u[1](i, j + 1, k)) + uniform[1]);
+        centred[k][j][i][2] = scale * (0.5 * (u[2](i, j, k) + u[2](i, j, k + 1)) + uniform[2]);
       }
 }
 

@@ -38,14 +38,19 @@ class FixRBCFluid : public Fix {
 
   void attach(const std::string &fix_id);
   fluid::Flow &flow() { return *stokes_flow; }
-  void update_drive();
-  void solved() { ++nsolves; }
+  void update_drive(bool middle);
+  void solved()
+  {
+    ++nsolves;
+    current = true;
+  }
   bigint solves() const { return nsolves; }
   double smallest_spacing() const;
 
  private:
   enum Data { VELOCITY, PRESSURE, FORCE, NDATA };
 
+  double box_lo[3], box_hi[3];    // when the grid was chosen
   std::array<int, 3> cells{};
   double target_spacing = 0;
   double viscosity = 0, density = 0;
@@ -57,6 +62,7 @@ class FixRBCFluid : public Fix {
   int ghost_layers = -1;
   std::string driver;    // ID of the fix rbc/ib that drives the flow, empty if there is none
   bigint nsolves = 0;
+  bool current = false;    // the flow has been solved on this decomposition
 
   fluid::FlowMeasures measures;
   bigint measured_solves = -1;
@@ -67,11 +73,12 @@ class FixRBCFluid : public Fix {
   void parse(int, char **);
   void parse_vector(int, int, char **, const char *, std::array<NumberOrVariable, 3> &);
   void choose_grid();
+  void check_grid() const;
   int layers_needed() const;
   void build_flow();
   void solve_alone();
   void free_data();
-  void fill_velocity_or_force(double ****, const fluid::VectorField &, const std::array<double, 3> &);
+  void fill_velocity_or_force(double ****, const fluid::VectorField &, const std::array<double, 3> &, double);
   const fluid::FlowMeasures &measure();
 };
 

@@ -73,18 +73,37 @@ void FixRBCIB::init()
   fluid_fix->attach(id);
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix rbc/ib cannot be used with run_style respa");
+  if (update->whichflag == 2) error->all(FLERR, "Fix rbc/ib cannot be used with minimize");
 
   membranes.clear();
   keepers.clear();
+  late_forces = false;
   bool before = true;
   for (Fix *fix : modify->get_fix_list()) {
     if (fix == this) before = false;
+    if (!before && (modify->get_fix_mask(fix) & POST_FORCE)) late_forces = true;
     auto membrane = dynamic_cast<FixRBCMembrane *>(fix);
     if (!membrane) continue;
     if (!before) error->all(FLERR, "Fix rbc/ib {} must be defined after fix rbc/membrane {}", id, fix->id);
+    if (membrane->keeps_volume()) check_moves_all(fix);
     membranes.push_back(membrane);
     if (membrane->keeps_volume()) keepers.push_back(membrane);
   }
+}
+
+/* ----------------------------------------------------------------------
+   keeping a cell's volume changes the velocities of all its vertices
+------------------------------------------------------------------------- */
+
+void FixRBCIB::check_moves_all(const Fix *membrane) const
+{
+  int left_out = 0;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if ((atom->mask[i] & membrane->groupbit) && !(atom->mask[i] & groupbit)) left_out = 1;
+  MPI_Allreduce(MPI_IN_PLACE, &left_out, 1, MPI_INT, MPI_MAX, world);
+  if (left_out)
+    error->all(FLERR, "Fix rbc/ib {} does not move all atoms of fix rbc/membrane {}, which keeps the volume of its cells",
+               id, membrane->id);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -119,6 +138,8 @@ void FixRBCIB::setup(int /*vflag*/)
 
 void FixRBCIB::initial_integrate(int /*vflag*/)
 {
+  if (late_forces && update->ntimestep == first_step + 1) update_velocities(true);
+
   double *const x = members.empty() ? nullptr : atom->x[0];
   const double dt = update->dt;
   const int count = static_cast<int>(members.size());
@@ -140,6 +161,7 @@ void FixRBCIB::initial_integrate(int /*vflag*/)
     update_velocities(false);
   }
   move(dt);
+  check_positions();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -188,7 +210,7 @@ void FixRBCIB::update_velocities(bool new_step)
   spreading.start();
   flow.clear_force();
   const int outside = flow.spread(kernel, markers, x, f, force->ftm2v);
-  if (outside >= 0) stop(outside, "left the fluid");
+  if (outside >= 0) stop(outside, "left the part of the fluid its MPI task holds (reneighboring too rare, see neigh_modify)");
   spreading.stop();
 
   exchanging.start();
@@ -196,7 +218,7 @@ void FixRBCIB::update_velocities(bool new_step)
   exchanging.stop();
 
   solving.start();
-  fluid_fix->update_drive();
+  fluid_fix->update_drive(!new_step);
   flow.solve();
   fluid_fix->solved();
   solving.stop();
@@ -211,6 +233,18 @@ void FixRBCIB::update_velocities(bool new_step)
 
   for (FixRBCMembrane *membrane : keepers) membrane->keep_volume(update->dt, new_step);
   check_velocities();
+}
+
+/* ----------------------------------------------------------------------
+   LAMMPS would delete what is beyond a plate when atoms migrate
+------------------------------------------------------------------------- */
+
+void FixRBCIB::check_positions() const
+{
+  if (domain->zperiodic) return;
+  double **const x = atom->x;
+  for (int i : members)
+    if (x[i][2] < domain->boxlo[2] || x[i][2] >= domain->boxhi[2]) stop(i, "went through a plate");
 }
 
 /* ----------------------------------------------------------------------
@@ -240,7 +274,7 @@ void FixRBCIB::stop(int i, const std::string &what) const
 }
 
 /* ----------------------------------------------------------------------
-   cost of a solve with all that belongs to it, averaged over ranks
+   cost of a solve with all that belongs to it, summed over ranks
 ------------------------------------------------------------------------- */
 
 void FixRBCIB::post_run()

@@ -43,9 +43,12 @@ class FixRBCIB : public Fix {
   std::vector<double> start_of_step;     // their positions
   rbc::Stopwatch spreading, solving, interpolating, exchanging;
   bigint first_solve = 0, first_step = 0;
+  bool late_forces = false;    // a fix defined after this one adds forces, which setup() does not see
 
   void update_velocities(bool new_step);
   void recompute_forces();
+  void check_moves_all(const Fix *) const;
+  void check_positions() const;
   void check_velocities() const;
   [[noreturn]] void stop(int, const std::string &) const;
 };

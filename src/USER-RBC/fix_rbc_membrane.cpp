@@ -4,6 +4,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "modify.h"
 #include "neighbor.h"
 #include "rbc_cell_template.h"
 #include "update.h"
@@ -36,6 +37,11 @@ FixRBCMembrane::FixRBCMembrane(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, nar
   cells = std::make_unique<LocalCells>(lmp, *surface, groupbit, fmt::format("Fix rbc/membrane {}", id));
   x.resize(surface->size());
   f.resize(surface->size());
+}
+
+FixRBCMembrane::~FixRBCMembrane()
+{
+  if (comm->cutghostuser == ghost_cutoff) comm->cutghostuser = 0;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -98,6 +104,7 @@ rbc::MembraneParameters FixRBCMembrane::parse(int narg, char **arg)
       need(1, keyword);
       const std::string value = arg[iarg + 1];
       volume_kept = value == "yes";
+      parameters.volume = 0;
       if (value != "yes" && value != "no") {
         if (!utils::is_double(value))
           error->all(FLERR, iarg + 1, "Fix rbc/membrane volume value {} must be yes, no or a modulus", value);
@@ -124,12 +131,33 @@ void FixRBCMembrane::init()
   if (domain->triclinic) error->all(FLERR, "Fix rbc/membrane requires an orthogonal simulation box");
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix rbc/membrane cannot be used with run_style respa");
+  if (update->whichflag == 2) error->all(FLERR, "Fix rbc/membrane cannot be used with minimize");
   cells->find();
+  for (Fix *other : modify->get_fix_by_style("^rbc/membrane$")) {
+    if (other == this) break;
+    int shared = 0;
+    for (int i = 0; i < atom->nlocal; ++i)
+      if ((atom->mask[i] & groupbit) && (atom->mask[i] & other->groupbit)) shared = 1;
+    MPI_Allreduce(MPI_IN_PLACE, &shared, 1, MPI_INT, MPI_MAX, world);
+    if (shared) error->all(FLERR, "Fix rbc/membrane {} and {} share atoms: a cell belongs to one of them", other->id, id);
+  }
 
-  // vertices of other ranks are needed up to two edges away, stretched by half
+  // what comm_modify cutoff asks for is left alone
 
-  const double reach = (model->parameters().bending > 0 ? 3 : 2) * surface->longest_edge;
-  if (comm->cutghostuser == 0) comm->cutghostuser = reach + neighbor->skin;
+  if (comm->cutghostuser != 0 && comm->cutghostuser != ghost_cutoff) return;
+  double reach = 0;
+  for (Fix *fix : modify->get_fix_by_style("^rbc/membrane$"))
+    reach = std::max(reach, dynamic_cast<FixRBCMembrane *>(fix)->reach());
+  comm->cutghostuser = ghost_cutoff = reach + neighbor->skin;
+}
+
+/* ----------------------------------------------------------------------
+   vertices of other ranks are needed up to two edges away with bending, stretched by half
+------------------------------------------------------------------------- */
+
+double FixRBCMembrane::reach() const
+{
+  return (model->parameters().bending > 0 ? 3 : 2) * surface->longest_edge;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -161,7 +189,7 @@ void FixRBCMembrane::post_force(int vflag)
   v_init(vflag);
   const bool measure = model->needs_size() || neighbor->ago == 0;
   if (measure) measure_cells();
-  add_forces(vflag);
+  add_forces();
   stopwatch.stop();
 }
 
@@ -188,7 +216,7 @@ void FixRBCMembrane::measure_cells()
 
 /* ---------------------------------------------------------------------- */
 
-void FixRBCMembrane::add_forces(int vflag)
+void FixRBCMembrane::add_forces()
 {
   double **const force = atom->f;
   const int size = surface->size();
@@ -217,7 +245,6 @@ void FixRBCMembrane::add_forces(int vflag)
       v_tally(cell.atom[v], virial_of_vertex);
     }
   }
-  (void) vflag;
 }
 
 /* ----------------------------------------------------------------------
@@ -269,14 +296,8 @@ void FixRBCMembrane::keep_volume(double dt, bool new_step)
 
 void FixRBCMembrane::stop(const LocalCells::Cell &cell, const std::string &what)
 {
-  Vec3 centre = Vec3::Zero();
-  int count = 0;
-  for (int v = 0; v < surface->size(); ++v)
-    if (cell.elements->owned[v]) {
-      centre += Vec3(atom->x[cell.atom[v]]);
-      ++count;
-    }
-  centre /= count;
+  Vec3 centre = cell.origin;
+  domain->remap(centre.data());
   error->one(FLERR, "Fix rbc/membrane {}: {} at step {}: cell with molecule ID {} near ({:.6g}, {:.6g}, {:.6g})", id, what,
              update->ntimestep, cells->molecules()[cell.index], centre[0], centre[1], centre[2]);
 }

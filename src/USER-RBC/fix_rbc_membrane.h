@@ -18,6 +18,7 @@ namespace LAMMPS_NS {
 class FixRBCMembrane : public Fix {
  public:
   FixRBCMembrane(class LAMMPS *, int, char **);
+  ~FixRBCMembrane() override;
   int setmask() override;
   void init() override;
   void setup_post_neighbor() override;
@@ -36,6 +37,7 @@ class FixRBCMembrane : public Fix {
   // used by computes and output of whole cells
 
   const rbc::SurfaceTemplate &shape() const { return *surface; }
+  const rbc::MembraneModel &membrane_model() const { return *model; }
   LocalCells &local_cells() { return *cells; }
 
   rbc::Stopwatch stopwatch;
@@ -46,6 +48,7 @@ class FixRBCMembrane : public Fix {
   std::unique_ptr<rbc::MembraneModel> model;
   std::unique_ptr<LocalCells> cells;
   bool volume_kept = true;
+  double ghost_cutoff = 0;    // that this fix asked for
 
   std::vector<rbc::Vec3> x, f;
   std::vector<rbc::Vec3> volume_gradient;     // of the vertices of all cells here, kept for keep_volume()
@@ -55,9 +58,9 @@ class FixRBCMembrane : public Fix {
   bigint energy_step = -1;
 
   rbc::MembraneParameters parse(int, char **);
+  double reach() const;
   void measure_cells();
-  void add_forces(int);
-  void check_cell(const LocalCells::Cell &, const rbc::MembraneEnergy &, bool);
+  void add_forces();
   [[noreturn]] void stop(const LocalCells::Cell &, const std::string &);
   const rbc::MembraneEnergy &total_energy();
 };

@@ -136,6 +136,7 @@ void RBCCreate::parse(int narg, char **arg)
   if (single && region) error->all(FLERR, "Rbc/create single takes no region");
   if (gap < 0) gap = shape->mean_edge;
   if (type == 0) type = 1;
+  set_extent();
   if (hematocrit > 0) {
     wanted = static_cast<int>(std::lround(hematocrit * region_volume() / shape->volume));
     if (wanted < 1)
@@ -145,22 +146,38 @@ void RBCCreate::parse(int narg, char **arg)
 }
 
 /* ----------------------------------------------------------------------
+   the part of the box around the region
+------------------------------------------------------------------------- */
+
+void RBCCreate::set_extent()
+{
+  lo = Vec3(domain->boxlo);
+  Vec3 hi(domain->boxhi);
+  if (region && region->bboxflag) {
+    lo = lo.cwiseMax(Vec3(region->extent_xlo, region->extent_ylo, region->extent_zlo));
+    hi = hi.cwiseMin(Vec3(region->extent_xhi, region->extent_yhi, region->extent_zhi));
+  }
+  length = hi - lo;
+  if (region && (length.minCoeff() <= 0 || region_volume() == 0))
+    error->all(FLERR, "Rbc/create region {} holds nothing of the simulation box", region->id);
+}
+
+/* ----------------------------------------------------------------------
    by sampling where there is a region
 ------------------------------------------------------------------------- */
 
 double RBCCreate::region_volume() const
 {
-  const double box = domain->prd[0] * domain->prd[1] * domain->prd[2];
-  if (!region) return box;
+  if (!region) return length.prod();
   constexpr int n = 64;
   int inside = 0;
   for (int k = 0; k < n; ++k)
     for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i)
-        inside += region->match(domain->boxlo[0] + (i + 0.5) / n * domain->prd[0],
-                                domain->boxlo[1] + (j + 0.5) / n * domain->prd[1],
-                                domain->boxlo[2] + (k + 0.5) / n * domain->prd[2]);
-  return box * inside / (double(n) * n * n);
+      for (int i = 0; i < n; ++i) {
+        const Vec3 x = lo + length.cwiseProduct(Vec3(i + 0.5, j + 0.5, k + 0.5) / n);
+        inside += region->match(x[0], x[1], x[2]);
+      }
+  return length.prod() * inside / (double(n) * n * n);
 }
 
 /* ----------------------------------------------------------------------
@@ -169,8 +186,8 @@ double RBCCreate::region_volume() const
 
 std::vector<RBCCreate::Vertices> RBCCreate::place_randomly()
 {
-  const Vec3 lo(domain->boxlo), length(domain->prd);
-  rbc::CellPacking packing(lo, length, {domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0}, gap);
+  rbc::CellPacking packing(Vec3(domain->boxlo), Vec3(domain->prd),
+                           {domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0}, gap);
 
   std::vector<int> counts(comm->nprocs), begins(comm->nprocs);
   const int mine = 3 * atom->nlocal;

@@ -33,6 +33,7 @@ class RBCCreate : public Command {
   int wanted = 0;
   double hematocrit = 0;
   class Region *region = nullptr;
+  rbc::Vec3 lo = rbc::Vec3::Zero(), length = rbc::Vec3::Zero();    // where cells may lie
   int seed = 0;
   int type = 0;
   double gap = -1;
@@ -40,6 +41,7 @@ class RBCCreate : public Command {
 
   void parse(int, char **);
   std::vector<Vertices> place_randomly();
+  void set_extent();
   double region_volume() const;
   void create_atoms(const std::vector<Vertices> &);
 };

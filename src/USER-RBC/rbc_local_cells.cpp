@@ -4,6 +4,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "update.h"
 
 #include <algorithm>
 #include <cmath>
@@ -94,6 +95,8 @@ void LocalCells::bind(bool bending)
     atoms[std::size_t(slot[index]) * size + (atom->tag[i] - first_ids[index])] = i;
   }
 
+  check_complete(owned_count);
+
   offsets.assign(atoms.size(), Vec3::Zero());
   parts.clear();
   parts.reserve(local.size());
@@ -124,6 +127,40 @@ void LocalCells::bind(bool bending)
   }
   find_shared(is_part);
   set_origins();
+}
+
+/* ----------------------------------------------------------------------
+   LAMMPS deletes atoms that leave a box that is not periodic
+------------------------------------------------------------------------- */
+
+void LocalCells::check_complete(const std::vector<int> &owned_count) const
+{
+  bigint owned = 0, all;
+  for (int count : owned_count) owned += count;
+  MPI_Allreduce(&owned, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (all == static_cast<bigint>(molecule_ids.size()) * shape.size()) return;
+
+  std::vector<double> sums(4 * molecule_ids.size());    // vertices left and their positions
+  for (std::size_t c = 0; c < local.size(); ++c)
+    for (int v = 0; v < shape.size(); ++v) {
+      const int i = atoms[c * shape.size() + v];
+      if (i < 0) continue;
+      double *const s = &sums[4 * std::size_t(local[c].index)];
+      double unwrapped[3];
+      domain->unmap(atom->x[i], atom->image[i], unwrapped);
+      s[0] += 1;
+      for (int d = 0; d < 3; ++d) s[1 + d] += unwrapped[d];
+    }
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, world);
+  for (std::size_t n = 0; n < molecule_ids.size(); ++n) {
+    const double *const s = &sums[4 * n];
+    if (s[0] == shape.size()) continue;
+    error->all(FLERR,
+               "{}: lost {:.0f} of {} vertices, which left the simulation box, at step {}: cell with molecule ID {} "
+               "near ({:.6g}, {:.6g}, {:.6g})",
+               style, shape.size() - s[0], shape.size(), update->ntimestep, molecule_ids[n], s[1] / s[0], s[2] / s[0],
+               s[3] / s[0]);
+  }
 }
 
 /* ----------------------------------------------------------------------

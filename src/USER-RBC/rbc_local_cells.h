@@ -59,6 +59,7 @@ class LocalCells : protected Pointers {
   std::vector<int> shared;    ///< indices of the cells that several ranks share, the same on all ranks
   std::vector<double> buffer;
 
+  void check_complete(const std::vector<int> &owned_count) const;
   void place_neighbours(std::size_t at, tagint first, const std::vector<char> &owned, int rings);
   void find_shared(const std::vector<char> &is_part);
   void set_origins();

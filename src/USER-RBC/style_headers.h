@@ -4,4 +4,5 @@
 #include "fix_rbc_fluid.h"
 #include "fix_rbc_ib.h"
 #include "fix_rbc_membrane.h"
+#include "fix_rbc_vtk.h"
 #include "rbc_create.h"

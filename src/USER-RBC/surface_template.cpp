@@ -86,6 +86,15 @@ SurfaceTemplate::SurfaceTemplate(std::vector<Vec3> vertices_in, std::vector<Corn
   require(connected(neighbours), "the surface is in more than one piece");
   require(size() - static_cast<int>(hinges.size()) + static_cast<int>(triangles.size()) == 2,
           "the surface is not a sphere topologically (vertices - edges + triangles must be 2)");
+  for (int v = 0; v < size(); ++v) {
+    std::size_t around = 0;
+    int w = neighbours[v][0];
+    do {
+      w = opposite(triangles[left.at({v, w})], v, w);
+      ++around;
+    } while (w != neighbours[v][0]);
+    require(around == fans[v].size(), "the surface touches itself at vertex " + std::to_string(v + 1));
+  }
 
   std::vector<Vec3> normals(triangles.size());
   std::vector<double> vertex_area(vertices.size());

@@ -1,0 +1,310 @@
+#include "fix_rbc_vtk.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_rbc_membrane.h"
+#include "group.h"
+#include "irregular.h"
+#include "membrane_tension.h"
+#include "modify.h"
+#include "update.h"
+#include "vtp_writer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+using rbc::Vec3;
+
+static const std::vector<rbc::PointArray> ARRAYS = {{"velocity", 3}, {"force", 3}, {"tension", 1}};
+static constexpr int VALUES = 3 + 3 + 3 + 1;    // at a vertex, with its position
+
+// cells whose centre lies this close below a side of the box, as a fraction of its length, count as above
+// it: on different ranks round-off must not decide
+
+static constexpr double SIDE = 1.0e-9;
+
+// a vertex on its way to the rank that writes its cell
+
+struct FixRBCVTK::Vertex {
+  int cell, vertex;
+  double x[3], v[3], f[3];
+};
+
+/* ---------------------------------------------------------------------- */
+
+FixRBCVTK::FixRBCVTK(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
+{
+  if (narg < 5) utils::missing_cmd_args(FLERR, "fix rbc/vtk", error);
+  nevery = utils::inumeric(FLERR, arg[3], false, lmp);
+  if (nevery <= 0) error->all(FLERR, 3, "Fix rbc/vtk N value {} must be > 0", arg[3]);
+
+  file = arg[4];
+  pieces = utils::strmatch(file, "\\.pvtp$");
+  if (!pieces && !utils::strmatch(file, "\\.vtp$"))
+    error->all(FLERR, 4, "Fix rbc/vtk file name {} must end in .vtp or .pvtp", file);
+  if (file.find('*') == std::string::npos)
+    error->all(FLERR, 4, "Fix rbc/vtk file name {} must contain a *, which stands for the step",
+               file);
+
+  for (int iarg = 5; iarg < narg; iarg += 2) {
+    const std::string keyword = arg[iarg];
+    if (keyword != "unwrap")
+      error->all(FLERR, iarg, "Unknown fix rbc/vtk keyword {}; allowed: unwrap", keyword);
+    if (iarg + 1 >= narg) utils::missing_cmd_args(FLERR, "fix rbc/vtk unwrap", error);
+    unwrap = utils::logical(FLERR, arg[iarg + 1], false, lmp);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixRBCVTK::setmask()
+{
+  return END_OF_STEP;
+}
+
+/* ----------------------------------------------------------------------
+   setup() writes what the setup() of the fixes before this one computed
+------------------------------------------------------------------------- */
+
+void FixRBCVTK::init()
+{
+  if (group->dynamic[igroup])
+    error->all(FLERR, "Fix rbc/vtk {} cannot be used with dynamic group {}", id,
+               group->names[igroup]);
+  sources.clear();
+  bool before = true;
+  for (Fix *fix : modify->get_fix_list()) {
+    if (fix == this) before = false;
+    auto membrane = dynamic_cast<FixRBCMembrane *>(fix);
+    if (!membrane && strcmp(fix->style, "rbc/ib") != 0) continue;
+    if (!before)
+      error->all(FLERR, "Fix rbc/vtk {} must be defined after fix {} {}", id, fix->style, fix->id);
+    if (membrane) sources.push_back(select(membrane));
+  }
+  if (sources.empty()) error->all(FLERR, "Fix rbc/vtk {}: there is no fix rbc/membrane", id);
+}
+
+/* ---------------------------------------------------------------------- */
+
+FixRBCVTK::Source FixRBCVTK::select(FixRBCMembrane *membrane)
+{
+  const std::vector<tagint> &molecules = membrane->local_cells().molecules();
+  std::vector<int> inside(molecules.size());
+  const int bits = groupbit | membrane->groupbit;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if ((atom->mask[i] & bits) != bits) continue;
+    const auto found = std::lower_bound(molecules.begin(), molecules.end(), atom->molecule[i]);
+    ++inside[found - molecules.begin()];
+  }
+  MPI_Allreduce(MPI_IN_PLACE, inside.data(), static_cast<int>(inside.size()), MPI_INT, MPI_SUM,
+                world);
+
+  Source source{membrane, std::vector<int>(molecules.size(), -1), 0};
+  const int size = membrane->shape().size();
+  for (std::size_t c = 0; c < molecules.size(); ++c) {
+    if (inside[c] == size)
+      source.slots[c] = source.count++;
+    else if (inside[c] > 0)
+      error->all(FLERR,
+                 "Fix rbc/vtk {}: group {} breaks the cell with molecule ID {}: it holds {} of its "
+                 "{} vertices",
+                 id, group->names[igroup], molecules[c], inside[c], size);
+  }
+  return source;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCVTK::setup(int /*vflag*/)
+{
+  if (update->ntimestep % nevery == 0 && update->ntimestep != last_step) write();
+}
+
+void FixRBCVTK::end_of_step()
+{
+  write();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCVTK::write()
+{
+  last_step = update->ntimestep;
+  const std::string name = utils::star_subst(file, last_step, 0);
+  const std::string stem = name.substr(0, name.rfind('.'));
+  const auto piece = [&](int rank) { return fmt::format("{}_{}.vtp", stem, rank); };
+  const double time = update->atime + (last_step - update->atimestep) * update->dt;
+
+  std::vector<std::vector<int>> writers;
+  std::vector<rbc::VtpWriter::Block> blocks;
+  for (const Source &source : sources) {
+    writers.push_back(find_writers(source));
+    const std::vector<int> &ranks = writers.back();
+    const auto here = std::count(ranks.begin(), ranks.end(), comm->me);
+    blocks.push_back({&source.membrane->shape(), pieces ? here : source.count});
+  }
+
+  try {
+    std::unique_ptr<rbc::VtpWriter> writer;
+    if (pieces || comm->me == 0)
+      writer =
+          std::make_unique<rbc::VtpWriter>(pieces ? piece(comm->me) : name, time, ARRAYS, blocks);
+    for (std::size_t s = 0; s < sources.size(); ++s)
+      write_cells(sources[s], static_cast<int>(s), writers[s], writer.get());
+    if (writer) writer->close();
+    if (pieces && comm->me == 0) {
+      std::vector<std::string> names(comm->nprocs);
+      for (int rank = 0; rank < comm->nprocs; ++rank)
+        names[rank] = platform::path_basename(piece(rank));
+      rbc::write_pvtp(name, time, ARRAYS, names);
+    }
+  } catch (const std::runtime_error &problem) {
+    error->one(FLERR, "Fix rbc/vtk {}: {}", id, problem.what());
+  }
+}
+
+/* ----------------------------------------------------------------------
+   for each cell here the rank that owns its first vertex, -1 for cells outside the group
+------------------------------------------------------------------------- */
+
+std::vector<int> FixRBCVTK::find_writers(const Source &source) const
+{
+  LocalCells &local = source.membrane->local_cells();
+  std::vector<double> ranks(local.cells().size());
+  std::transform(
+      local.cells().begin(), local.cells().end(), ranks.begin(),
+      [this](const LocalCells::Cell &cell) { return cell.elements->owned[0] ? comm->me : 0; });
+  local.sum_shared(ranks, 1);
+
+  std::vector<int> writers(ranks.begin(), ranks.end());
+  for (std::size_t c = 0; c < writers.size(); ++c)
+    if (source.slots[local.cells()[c].index] < 0) writers[c] = -1;
+  return writers;
+}
+
+/* ----------------------------------------------------------------------
+   what other ranks own of the cells that this one writes, in order of cells
+------------------------------------------------------------------------- */
+
+std::vector<FixRBCVTK::Vertex> FixRBCVTK::collect(const Source &source,
+                                                  const std::vector<int> &writers)
+{
+  const std::vector<LocalCells::Cell> &cells = source.membrane->local_cells().cells();
+  const int size = source.membrane->shape().size();
+  std::vector<Vertex> sent;
+  std::vector<int> ranks;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    if (writers[c] < 0 || writers[c] == comm->me) continue;
+    for (int v = 0; v < size; ++v) {
+      if (!cells[c].elements->owned[v]) continue;
+      const int i = cells[c].atom[v];
+      Vertex vertex{cells[c].index, v, {}, {}, {}};
+      domain->unmap(atom->x[i], atom->image[i], vertex.x);
+      std::copy_n(atom->v[i], 3, vertex.v);
+      std::copy_n(atom->f[i], 3, vertex.f);
+      sent.push_back(vertex);
+      ranks.push_back(writers[c]);
+    }
+  }
+
+  Irregular irregular(lmp);
+  std::vector<Vertex> received(irregular.create_data(static_cast<int>(sent.size()), ranks.data()));
+  irregular.exchange_data(reinterpret_cast<char *>(sent.data()), sizeof(Vertex),
+                          reinterpret_cast<char *>(received.data()));
+  irregular.destroy_data();
+  std::sort(received.begin(), received.end(),
+            [](const Vertex &a, const Vertex &b) { return a.cell < b.cell; });
+  return received;
+}
+
+/* ----------------------------------------------------------------------
+   every cell is put together on one rank, which writes it or, for a single file, sends it to rank 0
+------------------------------------------------------------------------- */
+
+void FixRBCVTK::write_cells(const Source &source, int block, const std::vector<int> &writers,
+                            rbc::VtpWriter *writer)
+{
+  const LocalCells &local = source.membrane->local_cells();
+  const rbc::SurfaceTemplate &shape = source.membrane->shape();
+  const rbc::MembraneParameters &parameters = source.membrane->membrane_model().parameters();
+  const int size = shape.size();
+
+  std::vector<const LocalCells::Cell *> mine;
+  for (std::size_t c = 0; c < writers.size(); ++c)
+    if (writers[c] == comm->me) mine.push_back(&local.cells()[c]);
+  std::sort(mine.begin(), mine.end(),
+            [](const auto *a, const auto *b) { return a->index < b->index; });
+
+  const std::vector<Vertex> received = collect(source, writers);
+  auto next = received.begin();
+  std::vector<Vec3> x(size), v(size), f(size);
+  std::vector<double> tension;
+  std::vector<double> message(2 + VALUES * size);    // slot, molecule, values
+  for (std::size_t n = 0; n < mine.size(); ++n) {
+    const LocalCells::Cell &cell = *mine[n];
+    for (int p = 0; p < size; ++p) {
+      if (!cell.elements->owned[p]) continue;
+      const int i = cell.atom[p];
+      domain->unmap(atom->x[i], atom->image[i], x[p].data());
+      v[p] = Vec3(atom->v[i]);
+      f[p] = Vec3(atom->f[i]);
+    }
+    for (; next != received.end() && next->cell == cell.index; ++next) {
+      x[next->vertex] = Vec3(next->x);
+      v[next->vertex] = Vec3(next->v);
+      f[next->vertex] = Vec3(next->f);
+    }
+    rbc::vertex_tension(shape, parameters, x, tension);
+    if (!unwrap) wrap(x);
+
+    message[0] = pieces ? n : source.slots[cell.index];
+    message[1] = static_cast<double>(local.molecules()[cell.index]);
+    double *at = message.data() + 2;
+    for (const std::vector<Vec3> *vectors : {&x, &v, &f})
+      for (const Vec3 &vector : *vectors) at = std::copy_n(vector.data(), 3, at);
+    std::copy(tension.begin(), tension.end(), at);
+    if (writer)
+      writer->write(block, message[0], message[1], &message[2]);
+    else
+      MPI_Ssend(message.data(), static_cast<int>(message.size()), MPI_DOUBLE, 0, 1 + block, world);
+  }
+
+  if (pieces || comm->me != 0) return;
+  for (int n = static_cast<int>(mine.size()); n < source.count; ++n) {
+    MPI_Recv(message.data(), static_cast<int>(message.size()), MPI_DOUBLE, MPI_ANY_SOURCE,
+             1 + block, world, MPI_STATUS_IGNORE);
+    writer->write(block, message[0], message[1], &message[2]);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   moves a whole cell by periods of the box such that its centre lies inside
+------------------------------------------------------------------------- */
+
+void FixRBCVTK::wrap(std::vector<Vec3> &x) const
+{
+  Vec3 centre = Vec3::Zero();
+  for (const Vec3 &vertex : x) centre += vertex;
+  centre /= static_cast<double>(x.size());
+  Vec3 shift = Vec3::Zero();
+  for (int d = 0; d < 3; ++d)
+    if (domain->periodicity[d])
+      shift[d] =
+          std::floor((centre[d] - domain->boxlo[d]) / domain->prd[d] + SIDE) * domain->prd[d];
+  for (Vec3 &vertex : x) vertex -= shift;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixRBCVTK::memory_usage()
+{
+  double bytes = 0;
+  for (const Source &source : sources) bytes += source.slots.capacity() * sizeof(int);
+  return bytes;
+}

@@ -1,0 +1,56 @@
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(rbc/vtk,FixRBCVTK);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_RBC_VTK_H
+#define LMP_FIX_RBC_VTK_H
+
+#include "fix.h"
+#include "rbc_local_cells.h"
+
+#include <string>
+#include <vector>
+
+namespace rbc {
+class VtpWriter;
+}
+
+namespace LAMMPS_NS {
+
+class FixRBCVTK : public Fix {
+ public:
+  FixRBCVTK(class LAMMPS *, int, char **);
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void end_of_step() override;
+  double memory_usage() override;
+
+ private:
+  struct Source {
+    class FixRBCMembrane *membrane;
+    std::vector<int> slots;    // place of each of its cells among those in the group, -1 for others
+    int count;                 // of the cells in the group
+  };
+  struct Vertex;
+
+  std::string file;
+  bool pieces;    // a file for each rank
+  bool unwrap = false;
+  std::vector<Source> sources;
+  bigint last_step = -1;
+
+  Source select(class FixRBCMembrane *);
+  void write();
+  std::vector<int> find_writers(const Source &) const;
+  std::vector<Vertex> collect(const Source &, const std::vector<int> &);
+  void write_cells(const Source &, int, const std::vector<int> &, rbc::VtpWriter *);
+  void wrap(std::vector<rbc::Vec3> &) const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

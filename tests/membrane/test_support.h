@@ -1,0 +1,366 @@
+#pragma once
+
+#include "membrane_model.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <random>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace test {
+
+using rbc::Vec3;
+using Matrix3 = Eigen::Matrix3d;
+using Vertices = std::vector<Vec3>;
+using Triangles = std::vector<rbc::SurfaceTemplate::Corners>;
+
+constexpr double pi = 3.14159265358979323846;
+
+// ---- meshes
+
+struct Mesh {
+  Vertices vertices;
+  Triangles triangles;
+
+  rbc::SurfaceTemplate surface() const { return {vertices, triangles}; }
+};
+
+template <typename Map> Vertices transformed(const Vertices &x, const Map &map)
+{
+  Vertices y;
+  for (const Vec3 &vertex : x) y.push_back(map(vertex));
+  return y;
+}
+
+/// Joins vertices at the same place, which may differ by round-off, into one.
+class Welder {
+ public:
+  int index(const Vec3 &x)
+  {
+    const auto [at, is_new] = known_.try_emplace(
+        {std::lround(x[0] * 1e8), std::lround(x[1] * 1e8), std::lround(x[2] * 1e8)},
+        mesh.vertices.size());
+    if (is_new) mesh.vertices.push_back(x);
+    return at->second;
+  }
+
+  Mesh mesh;
+
+ private:
+  std::map<std::array<long, 3>, int> known_;
+};
+
+/// Unit sphere: each face of an icosahedron in frequency^2 triangles, 10 frequency^2 + 2 vertices.
+inline Mesh icosphere(int frequency)
+{
+  const double golden = (1 + std::sqrt(5)) / 2;
+  Vertices corner;
+  for (int d = 0; d < 3; ++d)
+    for (double s : {-1.0, 1.0})
+      for (double t : {-golden, golden}) {
+        Vec3 x = Vec3::Zero();
+        x[(d + 1) % 3] = s;
+        x[(d + 2) % 3] = t;
+        corner.push_back(x.normalized());
+      }
+
+  const double edge_angle = std::atan(2);
+  const auto weight = [&](int i) { return std::sin(edge_angle * i / frequency); };
+  Welder welder;
+  for (int a = 0; a < 12; ++a)
+    for (int b = a + 1; b < 12; ++b)
+      for (int c = b + 1; c < 12; ++c) {
+        const Vec3 &p = corner[a], &q = corner[b], &r = corner[c];
+        // The cosine of neighbours is 0.447, of others negative.
+        if (std::min({p.dot(q), q.dot(r), r.dot(p)}) < 0.4) continue;
+        const bool outward = p.dot(q.cross(r)) > 0;
+        const auto vertex = [&](int i, int j) {
+          const Vec3 sum = weight(frequency - i - j) * p + weight(i) * q + weight(j) * r;
+          return welder.index(sum.normalized());
+        };
+        const auto add = [&](int u, int v, int w) {
+          if (!outward) std::swap(v, w);
+          welder.mesh.triangles.push_back({u, v, w});
+        };
+        for (int i = 0; i < frequency; ++i)
+          for (int j = 0; i + j < frequency; ++j) {
+            add(vertex(i, j), vertex(i + 1, j), vertex(i, j + 1));
+            if (i + j + 2 <= frequency)
+              add(vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1));
+          }
+      }
+  return welder.mesh;
+}
+
+/// Coefficients of z = (R/2) sqrt(1 - x^2) (a0 + a1 x^2 + a2 x^4), x = r/R.
+struct Profile {
+  double a0 = 0.207, a1 = 2.002, a2 = -1.122;
+};
+
+/// Biconcave disc of unit radius; its vertices have the distance from the axis that they have on the sphere.
+inline Mesh disc(int frequency, const Profile &profile = {})
+{
+  Mesh mesh = icosphere(frequency);
+  for (Vec3 &x : mesh.vertices) {
+    const double square = x[0] * x[0] + x[1] * x[1];
+    x[2] *= 0.5 * (profile.a0 + square * (profile.a1 + square * profile.a2));
+  }
+  return mesh;
+}
+
+/// The smooth disc where it is `angle` from the pole of the sphere it was made from: r = sin(angle).
+struct SmoothDisc {
+  Profile profile;
+
+  struct Curvature {
+    double mean, gaussian;    ///< positive on a sphere
+    double arc;               ///< arc length of the profile per angle
+  };
+
+  Curvature curvature(double angle) const
+  {
+    const double s = std::sin(angle), c = std::cos(angle), q = s * s, dq = 2 * s * c,
+                 ddq = 2 * (c * c - s * s);
+    const double g = 0.5 * (profile.a0 + q * (profile.a1 + q * profile.a2));
+    const double dg = 0.5 * (profile.a1 + 2 * q * profile.a2) * dq;
+    const double ddg = profile.a2 * dq * dq + 0.5 * (profile.a1 + 2 * q * profile.a2) * ddq;
+    const double dz = -s * g + c * dg, ddz = -c * g - 2 * s * dg + c * ddg;
+    const double arc = std::hypot(c, dz);
+    const double along = -(c * ddz + s * dz) / (arc * arc * arc);
+    const double around = std::abs(s) > 1e-9 ? -dz / (arc * s) : along;
+    return {(along + around) / 2, along * around, arc};
+  }
+
+  /// Outward normal force per area for kappa = 1 and c0 = 0, 2 (lapl H + 2 H (H^2 - K)) (Zhong-can and Helfrich,
+  /// Phys. Rev. A 39 (1989) 5280), with the Laplacian by finite differences of fourth order.
+  double bending_force(double angle) const
+  {
+    const double step = 2e-3;
+    angle = std::max(angle, step);    // the force is level at the poles
+    const auto derivative = [&](const auto &f, double at) {
+      return (8 * (f(at + step) - f(at - step)) - (f(at + 2 * step) - f(at - 2 * step))) /
+             (12 * step);
+    };
+    const auto mean = [&](double at) { return curvature(at).mean; };
+    const auto flux = [&](double at) {
+      return std::sin(at) / curvature(at).arc * derivative(mean, at);
+    };
+    const auto [H, K, arc] = curvature(angle);
+    return 2 * (derivative(flux, angle) / (std::sin(angle) * arc) + 2 * H * (H * H - K));
+  }
+};
+
+/// Cuboid from the origin, each face in n x n rectangles cut in two.
+inline Mesh cuboid(const Vec3 &size, int n)
+{
+  Welder welder;
+  for (int d = 0; d < 3; ++d)
+    for (int side : {0, 1})
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+          const auto vertex = [&](int di, int dj) {
+            Vec3 s;
+            s[d] = side;
+            s[(d + 1) % 3] = double(i + di) / n;
+            s[(d + 2) % 3] = double(j + dj) / n;
+            return welder.index(s.cwiseProduct(size));
+          };
+          int corners[4] = {vertex(0, 0), vertex(1, 0), vertex(1, 1), vertex(0, 1)};
+          if (side == 0) std::swap(corners[1], corners[3]);
+          welder.mesh.triangles.push_back({corners[0], corners[1], corners[2]});
+          welder.mesh.triangles.push_back({corners[0], corners[2], corners[3]});
+        }
+  return welder.mesh;
+}
+
+inline std::vector<double> vertex_areas(const Mesh &mesh)
+{
+  std::vector<double> areas(mesh.vertices.size());
+  for (const auto &[i, j, k] : mesh.triangles) {
+    const Vec3 e1 = mesh.vertices[j] - mesh.vertices[i], e2 = mesh.vertices[k] - mesh.vertices[i];
+    for (int v : {i, j, k}) areas[v] += e1.cross(e2).norm() / 6;
+  }
+  return areas;
+}
+
+// ---- random values
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+
+  double between(double lo, double hi) { return lo + (hi - lo) * (engine_() / 4294967296.0); }
+  int below(int n) { return static_cast<int>(engine_() % n); }
+  Vec3 vector(double lo, double hi)
+  {
+    Vec3 v;
+    for (int d = 0; d < 3; ++d) v[d] = between(lo, hi);
+    return v;
+  }
+  Vec3 direction()
+  {
+    for (;;) {
+      const Vec3 v = vector(-1, 1);
+      if (v.norm() < 1 && v.norm() > 0.1) return v.normalized();
+    }
+  }
+  Matrix3 rotation() { return Eigen::AngleAxisd(between(0.5, 3), direction()).toRotationMatrix(); }
+
+ private:
+  std::mt19937 engine_;
+};
+
+/// Grown by a tenth and moved by long random waves: a smooth deformation of a cell of unit size with strains of
+/// some 20 %.
+inline Vertices waved(const Vertices &x, unsigned seed)
+{
+  Random random(seed);
+  Vertices y = transformed(x, [](const Vec3 &v) { return Vec3(1.1 * v); });
+  for (int wave = 0; wave < 6; ++wave) {
+    const Vec3 amplitude = random.vector(-0.07, 0.07), k = random.vector(-2, 2);
+    const double phase = random.between(0, 2 * pi);
+    for (std::size_t v = 0; v < x.size(); ++v) y[v] += std::sin(k.dot(x[v]) + phase) * amplitude;
+  }
+  return y;
+}
+
+// ---- a model and what it gives for a whole cell
+
+struct Result {
+  rbc::CellSize size;
+  rbc::MembraneEnergy energy;
+  Vertices force, volume_gradient;
+};
+
+inline Result evaluate(rbc::MembraneModel &model, const rbc::SurfaceTemplate &shape,
+                       const Vertices &x)
+{
+  const auto all = rbc::CellElements::whole(shape);
+  Result result;
+  result.force.resize(x.size());
+  result.volume_gradient.resize(x.size());
+  result.size = model.measure(all, x, result.volume_gradient);
+  result.energy = model.forces(all, x, result.size, result.force);
+  return result;
+}
+
+inline Result evaluate(const rbc::SurfaceTemplate &shape, const rbc::MembraneParameters &parameters,
+                       const Vertices &x)
+{
+  rbc::MembraneModel model(shape, parameters);
+  return evaluate(model, shape, x);
+}
+
+/// Sum of sizes, the scale of round-off in sums of vectors.
+inline double total_norm(const Vertices &vectors)
+{
+  double sum = 0;
+  for (const Vec3 &v : vectors) sum += v.norm();
+  return sum;
+}
+
+inline double largest_difference(const Vertices &a, const Vertices &b)
+{
+  double largest = a.size() == b.size() ? 0 : HUGE_VAL;
+  for (std::size_t v = 0; v < std::min(a.size(), b.size()); ++v) {
+    const double difference = (a[v] - b[v]).norm();
+    largest = std::isnan(difference) ? HUGE_VAL : std::max(largest, difference);
+  }
+  return largest;
+}
+
+/// Each energy of a membrane by itself, with moduli of order one, and all of them together.
+inline std::map<std::string, rbc::MembraneParameters> each_energy()
+{
+  rbc::MembraneParameters nothing;
+  nothing.law = rbc::Skalak(0, 0);
+  std::map<std::string, rbc::MembraneParameters> sets;
+  const auto add = [&](const std::string &name) -> rbc::MembraneParameters & {
+    return sets[name] = nothing;
+  };
+  add("neo-Hookean").law = rbc::MooneyRivlin::neo_hookean(1.3);
+  add("Mooney-Rivlin").law = rbc::MooneyRivlin(40, 25, 0.01);
+  add("Skalak").law = rbc::Skalak(0.8, 5);
+  add("bending, reference").bending = 0.3;
+  rbc::MembraneParameters &flat = add("bending, c0 = 0");
+  flat.bending = 0.3;
+  flat.reference_curvature = false;
+  rbc::MembraneParameters &curved = add("bending, c0 = -1.7");
+  curved = flat;
+  curved.spontaneous_curvature = -1.7;
+  add("local area").local_area = 4;
+  add("global area").global_area = 4;
+  add("volume").volume = 6;
+  rbc::MembraneParameters &all = add("all");
+  all = curved;
+  all.law = rbc::MooneyRivlin(40, 25, 0.01);
+  all.local_area = all.global_area = 2;
+  all.volume = 3;
+  return sets;
+}
+
+inline std::vector<std::string> names_of_energies()
+{
+  std::vector<std::string> names;
+  for (const auto &set : each_energy()) names.push_back(set.first);
+  return names;
+}
+
+inline std::string test_name(const testing::TestParamInfo<std::string> &info)
+{
+  std::string name;
+  for (char c : info.param)
+    if (std::isalnum(static_cast<unsigned char>(c))) name += c;
+  return name;
+}
+
+// ---- orders and tables
+
+/// Of an error that falls while the frequency of the mesh doubles.
+inline double order(double coarse, double fine)
+{
+  return std::log2(std::abs(coarse / fine));
+}
+
+/// Rows of a comma-separated file in data/ below its comments.
+class Table {
+ public:
+  explicit Table(const std::string &name)
+  {
+    std::ifstream file(std::filesystem::path(__FILE__).parent_path() / "data" / name);
+    std::string line;
+    while (std::getline(file, line)) {
+      if (line.empty() || line[0] == '#') continue;
+      std::vector<std::string> words;
+      std::istringstream stream(line);
+      for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
+      if (columns_.empty())
+        for (std::size_t c = 0; c < words.size(); ++c) columns_[words[c]] = c;
+      else
+        rows_.push_back(words);
+    }
+    EXPECT_GT(rows(), 0) << "no table " << name;
+  }
+
+  int rows() const { return static_cast<int>(rows_.size()); }
+  const std::string &text(int row, const std::string &column) const
+  {
+    return rows_[row][columns_.at(column)];
+  }
+  double number(int row, const std::string &column) const { return std::stod(text(row, column)); }
+
+ private:
+  std::map<std::string, std::size_t> columns_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+}    // namespace test
