@@ -1,0 +1,182 @@
+#!/usr/bin/python3
+"""Error of the capsule in shear against grid spacing, vertices, time step, box and run time.
+
+Runs in.capsule-shear for a list of cases, compares D(t) with the references of examples/reference
+and writes study.csv and study.png. Cases that study.csv already holds are not run again.
+
+    study.py --lmp ../../build/lmp_rbc [--only base] [--ranks 1]
+"""
+
+import argparse
+import csv
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts"))
+from read_ave_time import read_ave_time  # noqa: E402
+
+CAPILLARY = (0.0375, 0.075, 0.15, 0.3, 0.6)
+BASE = dict(Ca=0.3, shape="capsule_642", dx=1 / 12, length=8, gap=8, timestep=0.005, strain=5.0,
+            kernel="roma3")
+COARSE = dict(BASE, dx=1 / 8, strain=2.0)
+SLOPE = dict(BASE, Ca=0.01, shape="capsule_2562", timestep=0.0005, strain=0.4)
+
+
+def cases():
+    """(name of the series, variables) of every run."""
+    for ca in CAPILLARY:
+        yield "base", dict(BASE, Ca=ca)
+    for kernel in ("roma3", "peskin4"):
+        for dx in (1 / 6, 1 / 8, 1 / 12, 1 / 16):
+            yield "slope", dict(SLOPE, dx=dx, kernel=kernel)
+    for box in (6, 8, 12, 16):
+        yield "slope-box", dict(SLOPE, shape="capsule_642", dx=1 / 6, length=box, gap=box)
+    for ca in (0.0375, 0.3):
+        for box in (6, 8, 12, 16):
+            yield "box", dict(COARSE, Ca=ca, dx=1 / 6, length=box, gap=box)
+        for kernel in ("roma3", "peskin4"):
+            for dx in (1 / 4, 1 / 6, 1 / 8, 1 / 12):
+                yield "dx", dict(COARSE, Ca=ca, dx=dx, kernel=kernel)
+        for vertices in (162, 362, 642, 2562):
+            yield "vertices", dict(COARSE, Ca=ca, shape=f"capsule_{vertices}", timestep=0.0025)
+    for dt in (0.02, 0.01, 0.005, 0.0025):
+        yield "timestep", dict(COARSE, timestep=dt)
+
+
+def run(lmp, ranks, variables):
+    """Times (strain), D(t) and the loop time of one run."""
+    every = variables["strain"] / 40 if variables["strain"] < 1 else 0.05
+    with tempfile.TemporaryDirectory() as folder:
+        command = ["mpirun", "-np", str(ranks), lmp, "-in", os.path.join(HERE, "in.capsule-shear"),
+                   "-log", "none", "-var", "templates", os.path.join(HERE, "..", "..", "potentials"),
+                   "-var", "every", repr(every)]
+        for name, value in variables.items():
+            command += ["-var", name, str(value)]
+        output = subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True).stdout
+        history = read_ave_time(os.path.join(folder, "cell.dat"))
+    loop = float(re.search(r"Loop time of (\S+)", output).group(1))
+    return history.steps * variables["timestep"], history.column(7)[:, 0], loop
+
+
+def references(ca):
+    """{source: (t, D)} of the transients at a capillary number on G_s."""
+    series = {}
+    with open(os.path.join(HERE, "..", "reference", "02b_capsule_shear_NH_transient_D.csv")) as file:
+        rows = [line.strip() for line in file if not line.startswith("#")]
+    for row in rows[1:]:
+        ca_e, rest = row.split(",", 1)
+        source, t, d = rest.rsplit(",", 2)
+        if abs(3 * float(ca_e) - ca) < 1e-9:
+            series.setdefault(source, []).append((float(t), float(d)))
+    return {source: np.array(points).T for source, points in series.items()}
+
+
+FIELDS = ["series", *BASE, "loop_seconds", "D_end", "samples"]
+
+
+def key(series, variables):
+    return (series, *(f"{variables[name]:.6g}" if isinstance(variables[name], float)
+                      else str(variables[name]) for name in BASE))
+
+
+def load(path):
+    if not os.path.exists(path):
+        return {}
+    with open(path) as file:
+        return {tuple(row[name] for name in ["series", *BASE]): row for row in csv.DictReader(file)}
+
+
+def samples_of(row):
+    """(t, D) as stored in a row of study.csv."""
+    return np.array([[float(x) for x in pair.split(":")] for pair in row["samples"].split()]).T
+
+
+def report(rows):
+    """The tables of the README."""
+    print("\nD(t) against the references, base resolution, box extrapolated (see box below):")
+    print(f"{'Ca':>7} {'source':<28}" + "".join(f"  t={t:<5g}" for t in (0.5, 1.0, 1.5)) + "  t=5")
+    for row in rows.values():
+        if row["series"] != "base":
+            continue
+        t, d = samples_of(row)
+        for source, (rt, rd) in references(float(row["Ca"])).items():
+            errors = []
+            for at in (0.5, 1.0, 1.5, 5.0):
+                match = np.isclose(rt, at)
+                errors.append(f"{100 * (np.interp(at, t, d) / rd[match][0] - 1):+6.1f}%" if match.any()
+                              else "      -")
+            print(f"{row['Ca']:>7} {source:<28}" + " ".join(errors))
+    for series, column in (("dx", "dx"), ("vertices", "shape"), ("timestep", "timestep"),
+                           ("box", "length"), ("slope", "dx"), ("slope-box", "length")):
+        print(f"\n{series}:")
+        for row in rows.values():
+            if row["series"] != series:
+                continue
+            t, d = samples_of(row)
+            values = " ".join(f"{np.interp(x, t, d):.5f}" for x in (0.5, 1.0, 1.5, 2.0) if x <= t[-1] + 1e-9)
+            print(f"  Ca {row['Ca']:>6} {row['kernel']:<8} {column} {row[column]:<12} D: {values}"
+                  f"  D/Ca at the end {float(row['D_end']) / float(row['Ca']):.4f}"
+                  f"  {float(row['loop_seconds']):8.1f} s")
+
+
+def plot(rows, path):
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.5))
+    markers = {"Pozrikidis1995": "s", "Ramanujan&Pozrikidis1998": "o", "Doddi&Bagchi2008": "^",
+               "Huet2022(high)": "x"}
+    for row in rows.values():
+        if row["series"] == "base":
+            t, d = samples_of(row)
+            line, = left.plot(t, d, label=f"Ca = {row['Ca']}")
+            for source, (rt, rd) in references(float(row["Ca"])).items():
+                left.plot(rt, rd, markers.get(source, "."), color=line.get_color(), mfc="none", ms=5)
+    left.set(xlabel="shear rate × time", ylabel="Taylor deformation D", xlim=(0, 5), ylim=(0, 0.6))
+    left.legend(title="lines: USER-RBC\nmarkers: references", fontsize=8)
+    for kernel, marker in (("peskin4", "o"), ("roma3", "s")):
+        points = [(float(r["dx"]), float(r["D_end"]) / float(r["Ca"])) for r in rows.values()
+                  if r["series"] == "slope" and r["kernel"] == kernel]
+        if points:
+            right.plot(*np.array(sorted(points)).T, marker + "-", label=kernel)
+    right.axhline(25 / 12, color="k", lw=1, label="25/12, unbounded")
+    right.set(xlabel="dx / radius", ylabel="D / Ca at Ca = 0.01", xlim=(0, None))
+    right.legend()
+    figure.tight_layout()
+    figure.savefig(path, dpi=110)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--lmp", default=os.path.join(HERE, "..", "..", "build", "lmp_rbc"))
+    parser.add_argument("--ranks", type=int, default=1)
+    parser.add_argument("--only", nargs="*", help="series to run; default all")
+    parser.add_argument("--csv", default=os.path.join(HERE, "study.csv"))
+    arguments = parser.parse_args()
+
+    rows = load(arguments.csv)
+    for series, variables in cases():
+        name = key(series, variables)
+        if name in rows or (arguments.only is not None and series not in arguments.only):
+            continue
+        t, d, loop = run(os.path.abspath(arguments.lmp), arguments.ranks, variables)
+        row = dict(zip(["series", *BASE], name), loop_seconds=f"{loop:.2f}", D_end=f"{d[-1]:.8g}",
+                   samples=" ".join(f"{x:.6g}:{y:.8g}" for x, y in zip(t, d)))
+        rows[name] = row
+        with open(arguments.csv, "w", newline="") as file:
+            writer = csv.DictWriter(file, FIELDS)
+            writer.writeheader()
+            writer.writerows(rows.values())
+        print(*name, f"{loop:.1f} s", f"D = {d[-1]:.5f}", flush=True)
+    report(rows)
+    plot(rows, os.path.join(HERE, "study.png"))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,71 @@
+#!/usr/bin/python3
+"""Tumbling and tank-treading of one cell from a dump of its vertices (`dump custom ... id xu yu zu`).
+
+In the plane of shear (x, z) the shape turns with the long axis of the vertices' second moments, the
+membrane with the rotation that best maps the vertices from one frame to the next. A tumbling cell turns
+as one: both rates agree. A tank-treading cell keeps its shape's angle while the membrane runs around it.
+Rates are given over the shear rate; a rigid sphere turns at -1/2.
+
+    membrane_motion.py vertices.dump --timestep DT --shear-rate G [-o motion.dat] [--from STRAIN]
+"""
+
+import argparse
+
+import numpy as np
+
+
+def read_dump(path):
+    """Steps and unwrapped positions [frame, vertex, 3] of a text dump, sorted by atom ID."""
+    steps, frames = [], []
+    with open(path, encoding="utf-8") as stream:
+        for line in stream:
+            if line.startswith("ITEM: TIMESTEP"):
+                steps.append(int(next(stream)))
+            elif line.startswith("ITEM: NUMBER OF ATOMS"):
+                count = int(next(stream))
+            elif line.startswith("ITEM: ATOMS"):
+                columns = line.split()[2:]
+                table = np.array([next(stream).split() for _ in range(count)], dtype=float)
+                table = table[np.argsort(table[:, columns.index("id")])]
+                frames.append(table[:, [columns.index(c) for c in ("xu", "yu", "zu")]])
+    return np.array(steps), np.array(frames)
+
+
+def angles(positions):
+    """Accumulated angle of the shape and of the membrane in the x-z plane, radians, [frame]."""
+    plane = positions[:, :, [0, 2]] - positions[:, :, [0, 2]].mean(axis=1, keepdims=True)
+    x, z = plane[..., 0], plane[..., 1]
+    shape = 0.5 * np.arctan2(2 * (x * z).sum(1), (x * x - z * z).sum(1))
+    shape = 0.5 * np.unwrap(2 * shape)
+    turn = np.arctan2((x[:-1] * z[1:] - z[:-1] * x[1:]).sum(1), (x[:-1] * x[1:] + z[:-1] * z[1:]).sum(1))
+    return shape, np.concatenate([[0.0], np.cumsum(turn)])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("dump")
+    parser.add_argument("--timestep", type=float, required=True)
+    parser.add_argument("--shear-rate", type=float, required=True, help="per unit of time of the timestep")
+    parser.add_argument("--from", dest="start", type=float, default=5.0, help="strain from which to average")
+    parser.add_argument("-o", "--output", help="table of strain, theta_shape and phi_membrane in degrees")
+    arguments = parser.parse_args()
+
+    steps, positions = read_dump(arguments.dump)
+    strain = steps * arguments.timestep * arguments.shear_rate
+    shape, membrane = angles(positions)
+    if arguments.output:
+        wrapped = (np.degrees(shape) + 90) % 180 - 90
+        np.savetxt(arguments.output, np.column_stack([strain, wrapped, np.degrees(membrane)]),
+                   header="strain theta_shape phi_membrane", fmt="%.6g")
+    late = strain >= min(arguments.start, strain[-1] / 2)
+    span = strain[late][-1] - strain[late][0]
+    shape_rate = (shape[late][-1] - shape[late][0]) / span
+    membrane_rate = (membrane[late][-1] - membrane[late][0]) / span
+    print(f"strain {strain[late][0]:.3g} to {strain[-1]:.3g}: shape turns at {shape_rate:+.4f}, "
+          f"membrane at {membrane_rate:+.4f} of the shear rate; "
+          f"tank-treading {membrane_rate - shape_rate:+.4f}; "
+          f"angle of the shape {np.degrees(shape[late]).min():.1f} to {np.degrees(shape[late]).max():.1f} degrees")
+
+
+if __name__ == "__main__":
+    main()
