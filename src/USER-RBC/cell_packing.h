@@ -2,6 +2,7 @@
 
 #include "surface_template.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <unordered_map>

@@ -3,6 +3,7 @@
 #include "hinge_geometry.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <numeric>
 
 namespace rbc {
@@ -33,10 +34,8 @@ CellElements CellElements::part(const SurfaceTemplate &shape, std::vector<char> 
     const auto &[i, j, k] = shape.triangles[t];
     if (core[i] || core[j] || core[k]) some.triangles.push_back(t);
   }
-  for (int e = 0; e < static_cast<int>(shape.hinges.size()); ++e) {
-    const Hinge &hinge = shape.hinges[e];
-    if (core[hinge.a] || core[hinge.b] || (owned[hinge.c] && owned[hinge.d])) some.hinges.push_back(e);
-  }
+  for (int e = 0; e < static_cast<int>(shape.hinges.size()); ++e)
+    if (core[shape.hinges[e].a] || core[shape.hinges[e].b]) some.hinges.push_back(e);
   some.owned = std::move(owned);
   return some;
 }

@@ -92,6 +92,8 @@ TEST_P(Parts, GiveTheForcesAndSumToTheEnergiesOfTheWhole)
       for (int v = 0; v < shape.size(); ++v)
         if (!known[v]) near[v].fill(unknown);
       Vertices force(x.size()), gradient(x.size());
+      for (int t : elements.triangles)
+        for (int v : shape.triangles[t]) ASSERT_TRUE(known[v]);
       const rbc::CellSize share = model.measure(elements, near, gradient);
       const rbc::MembraneEnergy part = model.forces(elements, near, whole.size, force);
       size.area += share.area;
@@ -175,12 +177,23 @@ TEST(Inverted, HealthyCellsHaveNone)
   }
 }
 
+TEST(Inverted, SharpTipsAreHealthy)
+{
+  // A cube drawn out along its diagonal: at the tips triangles are folded over two of their edges.
+  const rbc::SurfaceTemplate shape = cuboid({1, 1, 1}, 1).surface();
+  const Vec3 diagonal(1, 1, -1);
+  const Matrix3 stretch = Matrix3::Identity() + 2.0 / 3 * diagonal * diagonal.transpose();
+  const Vertices x = transformed(shape.vertices, [&](const Vec3 &v) { return Vec3(stretch * v); });
+  EXPECT_EQ(find_inverted(shape, x), -1);
+}
+
 TEST(Inverted, IsFoundByAnOwnerOfTwoOfItsCorners)
 {
   const rbc::SurfaceTemplate shape = disc(4).surface();
   for (bool bending : {false, true})
     for (const Owners &owners : splits(shape.vertices)) {
       std::vector<rbc::CellElements> parts;
+      parts.reserve(count(owners));
       for (int owner = 0; owner < count(owners); ++owner)
         parts.push_back(rbc::CellElements::part(shape, owned_by(owners, owner), bending));
       rbc::MembraneModel model(shape, {});
