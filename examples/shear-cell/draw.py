@@ -31,24 +31,24 @@ def snapshots(folder):
     for name in files:
         png = name[:-4] + ".png"
         subprocess.run([os.path.join(SCRIPTS, "render_cells.py"), name, "-o", png, "--box", "0", "24", "0", "24",
-                        "0", "24", "--plates", "--view", "15", "12", "--size", "640x560"], check=True)
+                        "0", "24", "--view", "10", "8", "--zoom", "1.9", "--size", "640x480"], check=True)
         yield step(name), plt.imread(png)
 
 
 def main():
     folder = sys.argv[1]
-    rate, timestep = np.loadtxt(os.path.join(folder, "scene.dat"))
+    rate, timestep, viscosity = np.loadtxt(os.path.join(folder, "scene.dat"))
     strain = rate * 1e-6 * timestep
     history = read_ave_time(os.path.join(folder, "cell.dat"))
     steps, positions = read_dump(os.path.join(folder, "vertices.dump"))
     shape, membrane = np.degrees(angles(positions))
 
-    figure = plt.figure(figsize=(12, 7))
-    grid = figure.add_gridspec(2, SNAPSHOTS, height_ratios=(1.1, 1))
+    figure = plt.figure(figsize=(12, 6.6))
+    grid = figure.add_gridspec(2, SNAPSHOTS, height_ratios=(1.15, 1))
     deformation = figure.add_subplot(grid[0, :SNAPSHOTS // 2])
     deformation.plot(history.steps * strain, history.column(7)[:, 0], color="#b3202a")
     deformation.set(xlabel="strain (shear rate × time)", ylabel="Taylor deformation D", ylim=(0, None),
-                    title=f"healthy red cell in plasma, {rate:g} /s")
+                    title=f"healthy red cell at {rate:g} /s, {viscosity:.3g} mPa s")
     turning = figure.add_subplot(grid[0, SNAPSHOTS // 2:])
     turning.plot(steps * strain, shape, label="shape (long axis)")
     turning.plot(steps * strain, membrane + shape[0], "--", label="membrane")
