@@ -138,7 +138,7 @@ void FixRBCIB::setup(int /*vflag*/)
 
 void FixRBCIB::initial_integrate(int /*vflag*/)
 {
-  if (late_forces && update->ntimestep == first_step + 1) update_velocities(true);
+  if (late_forces && update->ntimestep == first_step + 1) update_velocities(true, false);
 
   double *const x = members.empty() ? nullptr : atom->x[0];
   const double dt = update->dt;
@@ -199,7 +199,7 @@ void FixRBCIB::recompute_forces()
    forces -> spread -> solve -> interpolate -> velocities
 ------------------------------------------------------------------------- */
 
-void FixRBCIB::update_velocities(bool new_step)
+void FixRBCIB::update_velocities(bool new_step, bool new_drive)
 {
   fluid::Flow &flow = fluid_fix->flow();
   const fluid::Markers markers{static_cast<int>(members.size()), members.data()};
@@ -218,7 +218,7 @@ void FixRBCIB::update_velocities(bool new_step)
   exchanging.stop();
 
   solving.start();
-  fluid_fix->update_drive(!new_step);
+  if (new_drive) fluid_fix->update_drive(!new_step);
   flow.solve();
   fluid_fix->solved();
   solving.stop();

@@ -45,7 +45,7 @@ class FixRBCIB : public Fix {
   bigint first_solve = 0, first_step = 0;
   bool late_forces = false;    // a fix defined after this one adds forces, which setup() does not see
 
-  void update_velocities(bool new_step);
+  void update_velocities(bool new_step, bool new_drive = true);
   void recompute_forces();
   void check_moves_all(const Fix *) const;
   void check_positions() const;

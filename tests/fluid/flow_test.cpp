@@ -178,6 +178,21 @@ TEST(Flow, MeasuresCouetteFlow)
   }
 }
 
+/// A flow through a single face.
+TEST(Flow, MeasuresDivergence)
+{
+  const Grid grid = periodic();
+  Flow flow(grid, even(grid, {1, 1, ranks()}), width, viscosity);
+  step(flow, {});
+  if (flow.brick().contains({3, 2, 5})) flow.velocity()[1](3, 2, 5) = 0.4;
+  flow.share_velocity();
+  const FlowMeasures measures = flow.measure();
+  EXPECT_NEAR(measures.max_speed, 0.2, 1e-15);
+  EXPECT_NEAR(measures.max_divergence, 0.4 / grid.spacing[1] * grid.spacing[0] / 0.2, 1e-14);
+  EXPECT_NEAR(measures.kinetic_energy_per_density, 0.08 * grid.cell_volume(), 1e-15);
+  EXPECT_NEAR(measures.mean_velocity[1], 0.4 / grid.size(), 1e-15);
+}
+
 TEST(Flow, MarkersMoveWithCouetteFlowUpToThePlates)
 {
   const Grid grid = plates();
