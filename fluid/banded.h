@@ -63,19 +63,24 @@ template <int N> class VerticalColumns : public Columns<N> {
   using Columns<N>::im;
 
   /// `faces` = n + 1
-  explicit VerticalColumns(int faces) : Columns<N>(faces), inverse_pivot_(faces), first_(faces), second_(faces) {}
+  explicit VerticalColumns(int faces) :
+      Columns<N>(faces), inverse_pivot_(faces), first_(faces), second_(faces)
+  {
+  }
 
   void factor(const Lane<N> &a, const Lane<N> &q, double b)
   {
     const int n = cells();
     const Lane<N> interior = a + 2 * b;
     const auto centre = [&](int k) -> Lane<N> { return interior + ((k == 0) + (k == n - 1)) * b; };
-    Lane<N> previous_first = Lane<N>::Zero(), previous_second = Lane<N>::Zero(), older_second = Lane<N>::Zero();
+    Lane<N> previous_first = Lane<N>::Zero(), previous_second = Lane<N>::Zero(),
+            older_second = Lane<N>::Zero();
     Lane<N> previous_pivot = Lane<N>::Zero(), older_pivot = Lane<N>::Zero();
     for (int k = 1; k < n; ++k) {
       const Lane<N> diagonal = q * interior + centre(k - 1) + centre(k) + 2 * b;
       const Lane<N> next = -q * b - centre(k) - 2 * b;
-      const Lane<N> pivot = diagonal - previous_pivot * previous_first.square() - older_pivot * older_second.square();
+      const Lane<N> pivot =
+          diagonal - previous_pivot * previous_first.square() - older_pivot * older_second.square();
       inverse_pivot_[k] = 1 / pivot;
       first_[k] = (next - previous_pivot * previous_first * previous_second) * inverse_pivot_[k];
       second_[k] = b * inverse_pivot_[k];

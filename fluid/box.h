@@ -27,7 +27,8 @@ struct Box {
   /// Offset of index (i, j, k) in an array stored over this box, x fastest.
   std::ptrdiff_t offset(int i, int j, int k) const
   {
-    return (i - lo[0]) + std::ptrdiff_t(extent(0)) * ((j - lo[1]) + std::ptrdiff_t(extent(1)) * (k - lo[2]));
+    return (i - lo[0]) +
+           std::ptrdiff_t(extent(0)) * ((j - lo[1]) + std::ptrdiff_t(extent(1)) * (k - lo[2]));
   }
 
   Box shifted(const Index3 &by) const

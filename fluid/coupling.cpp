@@ -27,7 +27,8 @@ template <typename Kernel> struct Weights {
   bool inside(int lo, int hi, bool padded) const
   {
     const int width = padded ? 4 : Kernel::width;
-    return std::min(first_face, first_centre) >= lo && std::max(first_face, first_centre) + width <= hi;
+    return std::min(first_face, first_centre) >= lo &&
+           std::max(first_face, first_centre) + width <= hi;
   }
 };
 
@@ -44,7 +45,7 @@ template <typename Kernel> struct Stencil {
   bool inside(const Box &box) const
   {
     return w[0].inside(box.lo[0], box.hi[0], true) && w[1].inside(box.lo[1], box.hi[1], false) &&
-        w[2].inside(box.lo[2], box.hi[2], false);
+           w[2].inside(box.lo[2], box.hi[2], false);
   }
 
   /// Visits the rows of grid points of component c: visit(pointer to the row, weight of the row).
@@ -63,7 +64,10 @@ template <typename Kernel> struct Stencil {
   const Row &row_weights(int c) const { return c == 0 ? w[0].face : w[0].centre; }
 };
 
-Vec3 inverse(const Vec3 &spacing) { return {1 / spacing[0], 1 / spacing[1], 1 / spacing[2]}; }
+Vec3 inverse(const Vec3 &spacing)
+{
+  return {1 / spacing[0], 1 / spacing[1], 1 / spacing[2]};
+}
 
 /// The position is a number and so near the grid that indices are integers.
 bool near(const double *x, const Grid &grid, const Vec3 &inverse_spacing)
@@ -74,8 +78,8 @@ bool near(const double *x, const Grid &grid, const Vec3 &inverse_spacing)
 }
 
 template <typename Kernel>
-int spread_with(const Grid &grid, const Markers &markers, const double *position, const double *applied, double factor,
-                const VectorField &force)
+int spread_with(const Grid &grid, const Markers &markers, const double *position,
+                const double *applied, double factor, const VectorField &force)
 {
   const Vec3 inverse_spacing = inverse(grid.spacing);
   const double density = factor / grid.cell_volume();
@@ -87,15 +91,18 @@ int spread_with(const Grid &grid, const Markers &markers, const double *position
     if (!stencil.inside(force.box())) return markers.index[n];
     for (int c = 0; c < 3; ++c) {
       const Row row = stencil.row_weights(c) * (density * applied[i + c]);
-      stencil.for_each_row(c, fields[c], [&](double *points, double weight) { RowMap map(points); map += weight * row; });
+      stencil.for_each_row(c, fields[c], [&](double *points, double weight) {
+        RowMap map(points);
+        map += weight * row;
+      });
     }
   }
   return -1;
 }
 
 template <typename Kernel>
-void interpolate_with(const Grid &grid, const Markers &markers, const double *position, const VectorField &velocity,
-                      double *interpolated)
+void interpolate_with(const Grid &grid, const Markers &markers, const double *position,
+                      const VectorField &velocity, double *interpolated)
 {
   const Vec3 inverse_spacing = inverse(grid.spacing);
   const auto fields = velocity.views();
@@ -114,22 +121,26 @@ void interpolate_with(const Grid &grid, const Markers &markers, const double *po
 
 }    // namespace
 
-int spread(KernelKind kernel, const Grid &grid, const Markers &markers, const double *position, const double *applied,
-           double factor, const VectorField &force)
+int spread(KernelKind kernel, const Grid &grid, const Markers &markers, const double *position,
+           const double *applied, double factor, const VectorField &force)
 {
   switch (kernel) {
-    case KernelKind::roma3: return spread_with<Roma3>(grid, markers, position, applied, factor, force);
-    case KernelKind::peskin4: break;
+    case KernelKind::roma3:
+      return spread_with<Roma3>(grid, markers, position, applied, factor, force);
+    case KernelKind::peskin4:
+      break;
   }
   return spread_with<Peskin4>(grid, markers, position, applied, factor, force);
 }
 
-void interpolate(KernelKind kernel, const Grid &grid, const Markers &markers, const double *position,
-                 const VectorField &velocity, double *interpolated)
+void interpolate(KernelKind kernel, const Grid &grid, const Markers &markers,
+                 const double *position, const VectorField &velocity, double *interpolated)
 {
   switch (kernel) {
-    case KernelKind::roma3: return interpolate_with<Roma3>(grid, markers, position, velocity, interpolated);
-    case KernelKind::peskin4: break;
+    case KernelKind::roma3:
+      return interpolate_with<Roma3>(grid, markers, position, velocity, interpolated);
+    case KernelKind::peskin4:
+      break;
   }
   interpolate_with<Peskin4>(grid, markers, position, velocity, interpolated);
 }

@@ -16,12 +16,12 @@ struct Markers {
 
 /// Adds the force density of the markers to `force`, with F given in force units: f(x) += F delta_h(x - X).
 /// Returns the first marker (an entry of index) whose kernel leaves the stored box, or -1.
-int spread(KernelKind kernel, const Grid &grid, const Markers &markers, const double *position, const double *applied,
-           double factor, const VectorField &force);
+int spread(KernelKind kernel, const Grid &grid, const Markers &markers, const double *position,
+           const double *applied, double factor, const VectorField &force);
 
 /// Velocity at the markers, the transpose of spread: U = sum over x of u(x) delta_h(x - X) h^3.
 /// The markers must be those of a spread that returned -1, at the same positions.
-void interpolate(KernelKind kernel, const Grid &grid, const Markers &markers, const double *position,
-                 const VectorField &velocity, double *interpolated);
+void interpolate(KernelKind kernel, const Grid &grid, const Markers &markers,
+                 const double *position, const VectorField &velocity, double *interpolated);
 
 }    // namespace fluid

@@ -21,7 +21,8 @@ template <typename T> T *pack(const View<T> &view, const Box &box, T *buffer)
   return buffer;
 }
 
-template <typename T> const T *unpack(const View<T> &view, const Box &box, const T *buffer, bool add)
+template <typename T>
+const T *unpack(const View<T> &view, const Box &box, const T *buffer, bool add)
 {
   const int n = box.extent(0);
   for_each_row(view, box, [&](T *row) {
@@ -34,7 +35,9 @@ template <typename T> const T *unpack(const View<T> &view, const Box &box, const
   return buffer;
 }
 
-template <typename T> void transfer(const View<T> &from, const Box &source, const View<T> &to, const Box &target, bool add)
+template <typename T>
+void transfer(const View<T> &from, const Box &source, const View<T> &to, const Box &target,
+              bool add)
 {
   const int n = source.extent(0);
   for (int k = 0; k < source.extent(2); ++k)
@@ -51,7 +54,8 @@ template <typename T> void transfer(const View<T> &from, const Box &source, cons
 }    // namespace
 
 template <typename T>
-typename Exchange<T>::Side Exchange<T>::sorted(int me, int ranks, const std::vector<Transfer> &transfers)
+typename Exchange<T>::Side Exchange<T>::sorted(int me, int ranks,
+                                               const std::vector<Transfer> &transfers)
 {
   std::vector<Peer> all(ranks);
   Side side;
@@ -72,7 +76,8 @@ typename Exchange<T>::Side Exchange<T>::sorted(int me, int ranks, const std::vec
 }
 
 template <typename T>
-Exchange<T>::Exchange(MPI_Comm comm, const std::vector<Transfer> &sends, const std::vector<Transfer> &receives) :
+Exchange<T>::Exchange(MPI_Comm comm, const std::vector<Transfer> &sends,
+                      const std::vector<Transfer> &receives) :
     comm_(comm)
 {
   int me, ranks;
@@ -87,7 +92,8 @@ Exchange<T>::Exchange(MPI_Comm comm, const std::vector<Transfer> &sends, const s
 }
 
 template <typename T>
-void Exchange<T>::run(const View<T> *from, const View<T> *to, int components, const Side &out, const Side &in, bool add)
+void Exchange<T>::run(const View<T> *from, const View<T> *to, int components, const Side &out,
+                      const Side &in, bool add)
 {
   MPI_Request *request = requests_.data();
   T *arriving = incoming_.data();

@@ -27,7 +27,8 @@ template <typename T> class Exchange {
   static constexpr int max_components = 3;
 
   Exchange() = default;
-  Exchange(MPI_Comm comm, const std::vector<Transfer> &sends, const std::vector<Transfer> &receives);
+  Exchange(MPI_Comm comm, const std::vector<Transfer> &sends,
+           const std::vector<Transfer> &receives);
 
   /// Overwrites the receiving boxes of `to` with the sending boxes of `from`.
   template <std::size_t N>
@@ -65,7 +66,8 @@ template <typename T> class Exchange {
     std::size_t size = 0;
   };
 
-  void run(const View<T> *from, const View<T> *to, int components, const Side &out, const Side &in, bool add);
+  void run(const View<T> *from, const View<T> *to, int components, const Side &out, const Side &in,
+           bool add);
   static Side sorted(int me, int ranks, const std::vector<Transfer> &transfers);
 
   MPI_Comm comm_ = MPI_COMM_NULL;

@@ -20,7 +20,8 @@ template <typename T> class Buffer {
  public:
   Buffer() = default;
   explicit Buffer(std::size_t length) :
-      length_(length), data_(static_cast<T *>(fftw_malloc(std::max<std::size_t>(length, 1) * sizeof(T))))
+      length_(length),
+      data_(static_cast<T *>(fftw_malloc(std::max<std::size_t>(length, 1) * sizeof(T))))
   {
     std::fill_n(data_.get(), length, T{});
   }

@@ -15,13 +15,16 @@ template <typename Visit> void for_each_cell(const Box &box, Visit visit)
 
 template <typename Values> void sum_over_ranks(Values &values, MPI_Comm comm)
 {
-  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM, comm);
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM,
+                comm);
 }
 
 }    // namespace
 
-Flow::Flow(const Grid &grid, const Decomposition &decomposition, int ghost_layers, double viscosity) :
-    grid_(grid), decomposition_(decomposition), viscosity_(viscosity), halo_(grid, decomposition, ghost_layers),
+Flow::Flow(const Grid &grid, const Decomposition &decomposition, int ghost_layers,
+           double viscosity) :
+    grid_(grid),
+    decomposition_(decomposition), viscosity_(viscosity), halo_(grid, decomposition, ghost_layers),
     force_(halo_.box()), velocity_(halo_.box()),
     solver_(grid, decomposition, halo_.box(), viscosity, 0.0, drive)
 {
@@ -33,7 +36,8 @@ void Flow::clear_force()
   lower_direct_ = upper_direct_ = {0, 0, 0};
 }
 
-int Flow::spread(KernelKind kernel, const Markers &markers, const double *position, const double *force, double factor)
+int Flow::spread(KernelKind kernel, const Markers &markers, const double *position,
+                 const double *force, double factor)
 {
   return fluid::spread(kernel, grid_, markers, position, force, factor, force_);
 }
@@ -44,7 +48,10 @@ void Flow::gather_force()
   halo_.add_back(force_.views());
 }
 
-void Flow::solve() { solver_.velocity(force_, velocity_); }
+void Flow::solve()
+{
+  solver_.velocity(force_, velocity_);
+}
 
 void Flow::share_velocity()
 {
@@ -52,7 +59,8 @@ void Flow::share_velocity()
   if (grid_.walls) reflect_velocity(grid_, drive.walls, velocity_);
 }
 
-void Flow::interpolate(KernelKind kernel, const Markers &markers, const double *position, double *velocity) const
+void Flow::interpolate(KernelKind kernel, const Markers &markers, const double *position,
+                       double *velocity) const
 {
   fluid::interpolate(kernel, grid_, markers, position, velocity_, velocity);
 }
@@ -125,7 +133,8 @@ void Flow::measure_tractions(FlowMeasures &measures) const
   }
   for (int c = 0; c < 2; ++c) {
     measures.lower_traction[c] += 2 * viscosity_ / h * (sums[c] * per_plane - drive.walls.lower[c]);
-    measures.upper_traction[c] += 2 * viscosity_ / h * (sums[2 + c] * per_plane - drive.walls.upper[c]);
+    measures.upper_traction[c] +=
+        2 * viscosity_ / h * (sums[2 + c] * per_plane - drive.walls.upper[c]);
   }
   const double weight = h / 2 * drive.body[2];    // of the half cells at the plates
   measures.lower_traction[2] += weight + mean;

@@ -9,7 +9,7 @@ namespace fluid {
 /// Global measures of a flow; forces are those the fluid exerts.
 struct FlowMeasures {
   double kinetic_energy_per_density = 0;    ///< half the volume integral of u^2
-  Vec3 lower_traction{0, 0, 0};             ///< force per area on the lower plate, zero without plates
+  Vec3 lower_traction{0, 0, 0};    ///< force per area on the lower plate, zero without plates
   Vec3 upper_traction{0, 0, 0};
   Vec3 mean_velocity{0, 0, 0};
   double max_speed = 0;
@@ -29,7 +29,8 @@ class Flow {
   void clear_force();
 
   /// Returns the first marker whose kernel leaves the ghost layers (nothing is spread for it), or -1.
-  int spread(KernelKind kernel, const Markers &markers, const double *position, const double *force, double factor);
+  int spread(KernelKind kernel, const Markers &markers, const double *position, const double *force,
+             double factor);
 
   /// Adds the ghosts' share of the force to its owners: the exchange between spread and solve.
   void gather_force();
@@ -42,7 +43,8 @@ class Flow {
   /// Fills the ghost layers of the force; needed for output only.
   void share_force() { halo_.fill(force_.views()); }
 
-  void interpolate(KernelKind kernel, const Markers &markers, const double *position, double *velocity) const;
+  void interpolate(KernelKind kernel, const Markers &markers, const double *position,
+                   double *velocity) const;
 
   const Grid &grid() const { return grid_; }
   const Box &brick() const { return decomposition_.mine(); }
@@ -65,7 +67,8 @@ class Flow {
   Halo halo_;
   VectorField force_, velocity_;
   ScalarField pressure_;
-  Vec3 lower_direct_{0, 0, 0}, upper_direct_{0, 0, 0};    ///< spread force that went straight into a plate
+  Vec3 lower_direct_{0, 0, 0},
+      upper_direct_{0, 0, 0};    ///< spread force that went straight into a plate
   StokesSolver solver_;
 };
 

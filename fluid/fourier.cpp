@@ -7,7 +7,10 @@ namespace {
 // Estimated plans are the same in every run, so that a restarted run repeats the first bit for bit.
 constexpr unsigned planning = FFTW_ESTIMATE;
 
-fftw_complex *raw(Complex *p) { return reinterpret_cast<fftw_complex *>(p); }
+fftw_complex *raw(Complex *p)
+{
+  return reinterpret_cast<fftw_complex *>(p);
+}
 
 template <std::size_t N> std::array<View<Complex>, N> leading(const Components<Complex, 3> &all)
 {
@@ -42,17 +45,19 @@ Fourier::Fourier(const Grid &grid, const Decomposition &decomposition, const Box
     const int stride = stored.extent(0), rows = row_box_.extent(1);
     Buffer<double> values(std::size_t(stride) * rows);
     Buffer<Complex> spectrum(std::size_t(modes) * rows);
-    x_forward_ = Plan(fftw_plan_many_dft_r2c(1, &nx, rows, values.data(), nullptr, 1, stride, raw(spectrum.data()),
-                                             nullptr, 1, modes, planning | FFTW_UNALIGNED));
-    x_backward_ = Plan(fftw_plan_many_dft_c2r(1, &nx, rows, raw(spectrum.data()), nullptr, 1, modes, values.data(),
-                                              nullptr, 1, stride, planning | FFTW_UNALIGNED));
+    x_forward_ = Plan(fftw_plan_many_dft_r2c(1, &nx, rows, values.data(), nullptr, 1, stride,
+                                             raw(spectrum.data()), nullptr, 1, modes,
+                                             planning | FFTW_UNALIGNED));
+    x_backward_ =
+        Plan(fftw_plan_many_dft_c2r(1, &nx, rows, raw(spectrum.data()), nullptr, 1, modes,
+                                    values.data(), nullptr, 1, stride, planning | FFTW_UNALIGNED));
   }
   if (!y_->box().empty()) {
     const int columns = y_->box().extent(0);
     Buffer<Complex> plane(std::size_t(columns) * ny);
     const auto plan = [&](int sign) {
-      return Plan(fftw_plan_many_dft(1, &ny, columns, raw(plane.data()), nullptr, columns, 1, raw(plane.data()), nullptr,
-                                     columns, 1, sign, planning));
+      return Plan(fftw_plan_many_dft(1, &ny, columns, raw(plane.data()), nullptr, columns, 1,
+                                     raw(plane.data()), nullptr, columns, 1, sign, planning));
     };
     y_forward_ = plan(FFTW_FORWARD);
     y_backward_ = plan(FFTW_BACKWARD);
@@ -81,7 +86,8 @@ template <std::size_t N> void Fourier::forward(const std::array<View<double>, N>
     for (std::size_t c = 0; c < N; ++c)
       for (int k = row_box_.lo[2]; k < row_box_.hi[2]; ++k) {
         const View<Complex> modes = (*x_)[c];
-        fftw_execute_dft_r2c(x_forward_.get(), &real[c](0, row_box_.lo[1], k), raw(&modes(0, row_box_.lo[1], k)));
+        fftw_execute_dft_r2c(x_forward_.get(), &real[c](0, row_box_.lo[1], k),
+                             raw(&modes(0, row_box_.lo[1], k)));
         if (planes_whole) transform_y(c, k);
       }
   if (!planes_whole) {
@@ -117,7 +123,8 @@ template <std::size_t N> void Fourier::backward(const std::array<View<double>, N
       for (int k = row_box_.lo[2]; k < row_box_.hi[2]; ++k) {
         if (planes_whole) transform_y(c, k);
         const View<Complex> modes = (*x_)[c];
-        fftw_execute_dft_c2r(x_backward_.get(), raw(&modes(0, row_box_.lo[1], k)), &real[c](0, row_box_.lo[1], k));
+        fftw_execute_dft_c2r(x_backward_.get(), raw(&modes(0, row_box_.lo[1], k)),
+                             &real[c](0, row_box_.lo[1], k));
       }
   if (!to_x_.identity()) to_x_.backward(real, values);
 }

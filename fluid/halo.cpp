@@ -22,7 +22,8 @@ Box with_ghosts(const Grid &grid, const Box &brick, int width)
 /// Parts of `owner`'s brick and its periodic images that lie in `ghosted`, as seen by the ghost cells'
 /// holder; the image at `shift` has its source at box - shift.
 template <typename Visit>
-void for_each_image(const Grid &grid, const Box &owner, const Box &ghosted, bool same_rank, Visit visit)
+void for_each_image(const Grid &grid, const Box &owner, const Box &ghosted, bool same_rank,
+                    Visit visit)
 {
   Index3 most{};
   for (int d = 0; d < 3; ++d) {
@@ -49,8 +50,9 @@ Halo::Halo(const Grid &grid, const Decomposition &decomposition, int width) :
   std::vector<Transfer> sends, receives;
   for (int r = 0; r < decomposition.ranks(); ++r) {
     const Box &theirs = decomposition.bricks[r];
-    for_each_image(grid, theirs, box_, r == me,
-                   [&](const Box &box, const Index3 &) { receives.push_back({r, box}); });
+    for_each_image(grid, theirs, box_, r == me, [&](const Box &box, const Index3 &) {
+      receives.push_back({r, box});
+    });
     for_each_image(grid, decomposition.mine(), with_ghosts(grid, theirs, width), r == me,
                    [&](const Box &box, const Index3 &shift) {
                      sends.push_back({r, box.shifted({-shift[0], -shift[1], -shift[2]})});

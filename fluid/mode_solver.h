@@ -26,15 +26,17 @@ class ModeSolver {
 
   /// Replaces the modes of the force density in `spectrum` by those of the velocity, normalised for the
   /// unnormalised backward transform. Where `pressure` is given its modes are written too.
-  virtual void solve(const std::array<View<Complex>, 3> &spectrum, const View<Complex> *pressure) = 0;
+  virtual void solve(const std::array<View<Complex>, 3> &spectrum,
+                     const View<Complex> *pressure) = 0;
 };
 
 /// Triply periodic. The mean force is balanced by a uniform pressure gradient and the mean velocity stays
 /// zero where shift is zero (Stokes); otherwise the mean obeys shift <u> = <f>.
-std::unique_ptr<ModeSolver> make_periodic_modes(const Grid &grid, const Box &modes, double viscosity, double shift);
+std::unique_ptr<ModeSolver> make_periodic_modes(const Grid &grid, const Box &modes,
+                                                double viscosity, double shift);
 
 /// Plates at both ends of z (no slip); `drive` is read at every solve.
-std::unique_ptr<ModeSolver> make_walled_modes(const Grid &grid, const Box &modes, double viscosity, double shift,
-                                              const Drive &drive);
+std::unique_ptr<ModeSolver> make_walled_modes(const Grid &grid, const Box &modes, double viscosity,
+                                              double shift, const Drive &drive);
 
 }    // namespace fluid

@@ -57,7 +57,8 @@ Pencils arrange(const Grid &grid, const RankTable &table)
 double values_moved(const std::vector<Box> &from, const std::vector<Box> &to)
 {
   double moved = 0;
-  for (std::size_t r = 0; r < from.size(); ++r) moved += from[r].size() - intersection(from[r], to[r]).size();
+  for (std::size_t r = 0; r < from.size(); ++r)
+    moved += from[r].size() - intersection(from[r], to[r]).size();
   return moved;
 }
 
@@ -67,7 +68,7 @@ double cost(const std::vector<Box> &bricks, const Pencils &pencils)
   double busiest = 0;
   for (const Box &box : pencils.y) busiest = std::max(busiest, double(box.size()));
   return values_moved(bricks, pencils.real_x) + 2 * values_moved(pencils.x, pencils.y) +
-      2 * values_moved(pencils.y, pencils.z) + busiest * bricks.size();
+         2 * values_moved(pencils.y, pencils.z) + busiest * bricks.size();
 }
 
 }    // namespace

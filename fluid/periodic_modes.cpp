@@ -18,8 +18,8 @@ class PeriodicModes : public ModeSolver {
     Buffer<Complex> scratch(std::size_t(plane) * nz);
     auto *p = reinterpret_cast<fftw_complex *>(scratch.data());
     const auto plan = [&](int sign) {
-      return Plan(fftw_plan_many_dft(1, &nz, columns, p, nullptr, plane, 1, p, nullptr, plane, 1, sign,
-                                     FFTW_ESTIMATE));
+      return Plan(fftw_plan_many_dft(1, &nz, columns, p, nullptr, plane, 1, p, nullptr, plane, 1,
+                                     sign, FFTW_ESTIMATE));
     };
     forward_ = plan(FFTW_FORWARD);
     backward_ = plan(FFTW_BACKWARD);
@@ -43,7 +43,8 @@ class PeriodicModes : public ModeSolver {
     fftw_execute_dft(plan.get(), row, row);
   }
 
-  void project_row(const std::array<View<Complex>, 3> &spectrum, const View<Complex> *pressure, int ky, int kz) const
+  void project_row(const std::array<View<Complex>, 3> &spectrum, const View<Complex> *pressure,
+                   int ky, int kz) const
   {
     Complex *u = &spectrum[0](modes_.lo[0], ky, kz), *v = &spectrum[1](modes_.lo[0], ky, kz),
             *w = &spectrum[2](modes_.lo[0], ky, kz);
@@ -81,7 +82,8 @@ class PeriodicModes : public ModeSolver {
 
 }    // namespace
 
-std::unique_ptr<ModeSolver> make_periodic_modes(const Grid &grid, const Box &modes, double viscosity, double shift)
+std::unique_ptr<ModeSolver> make_periodic_modes(const Grid &grid, const Box &modes,
+                                                double viscosity, double shift)
 {
   return std::make_unique<PeriodicModes>(grid, modes, viscosity, shift);
 }

@@ -20,7 +20,10 @@ PlanePair mirrored(const Grid &grid, int c, bool upper, int layer)
 }
 
 /// Number of planes of component c beyond a plate that the ghost cells hold.
-int planes_beyond(int c, bool upper) { return c != 2 && upper ? layers + 1 : layers; }
+int planes_beyond(int c, bool upper)
+{
+  return c != 2 && upper ? layers + 1 : layers;
+}
 
 template <typename Visit> void for_each_in_plane(const Box &box, Visit visit)
 {

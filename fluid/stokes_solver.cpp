@@ -2,8 +2,8 @@
 
 namespace fluid {
 
-StokesSolver::StokesSolver(const Grid &grid, const Decomposition &decomposition, const Box &storage, double viscosity,
-                           double shift, const Drive &drive) :
+StokesSolver::StokesSolver(const Grid &grid, const Decomposition &decomposition, const Box &storage,
+                           double viscosity, double shift, const Drive &drive) :
     fourier_(grid, decomposition, storage),
     modes_(grid.walls ? make_walled_modes(grid, fourier_.modes(), viscosity, shift, drive)
                       : make_periodic_modes(grid, fourier_.modes(), viscosity, shift))

@@ -9,8 +9,8 @@ namespace fluid {
 class StokesSolver {
  public:
   /// `storage` is the box over which the fields are stored; `drive` is read at every solve.
-  StokesSolver(const Grid &grid, const Decomposition &decomposition, const Box &storage, double viscosity, double shift,
-               const Drive &drive);
+  StokesSolver(const Grid &grid, const Decomposition &decomposition, const Box &storage,
+               double viscosity, double shift, const Drive &drive);
 
   /// Sets the velocity on this rank's brick from the force on all bricks.
   void velocity(const VectorField &force, const VectorField &velocity);

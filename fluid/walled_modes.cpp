@@ -18,44 +18,38 @@ using Lanes = Lane<lanes>;
 /// where A_w, A_c are the Helmholtz operators on faces and centres and D the difference in z.
 class WalledModes : public ModeSolver {
  public:
-  WalledModes(const Grid &grid, const Box &modes, double viscosity, double shift, const Drive &drive) :
-      grid_(grid), modes_(modes), viscosity_(viscosity), shift_(shift), drive_(drive),
+  WalledModes(const Grid &grid, const Box &modes, double viscosity, double shift,
+              const Drive &drive) :
+      grid_(grid),
+      modes_(modes), viscosity_(viscosity), shift_(shift), drive_(drive),
       x_(grid.cells[0], grid.spacing[0], modes.lo[0], modes.hi[0]),
-      y_(grid.cells[1], grid.spacing[1], modes.lo[1], modes.hi[1]), across_(grid.cells[2]), along_(grid.cells[2]),
-      vertical_(grid.cells[2] + 1)
+      y_(grid.cells[1], grid.spacing[1], modes.lo[1], modes.hi[1]), across_(grid.cells[2]),
+      along_(grid.cells[2]),
+      vertical_(grid.cells[2] + 1), mean_velocity_{std::vector<double>(grid.cells[2]),
+                                                   std::vector<double>(grid.cells[2])},
+      mean_pressure_(grid.cells[2])
   {
   }
 
   void solve(const std::array<View<Complex>, 3> &spectrum, const View<Complex> *pressure) override
   {
+    const bool mean = modes_.contains({0, 0, 0});
+    if (mean) solve_mean(spectrum);
     for (int ky = modes_.lo[1]; ky < modes_.hi[1]; ++ky)
-      for (int kx = modes_.lo[0]; kx < modes_.hi[0]; kx += lanes) {
-        const int count = std::min(lanes, modes_.hi[0] - kx);
-        const bool mean = kx == 0 && ky == 0;
-        std::array<std::vector<Complex>, 4> profile;
-        if (mean) profile = solve_mean(spectrum);
-        solve_block(spectrum, pressure, kx, ky, count);
-        if (mean) {
-          for (int k = 0; k < grid_.cells[2]; ++k) {
-            for (int c = 0; c < 3; ++c) spectrum[c](0, 0, k) = profile[c][k];
-            if (pressure) (*pressure)(0, 0, k) = profile[3][k];
-          }
-        }
-      }
+      for (int kx = modes_.lo[0]; kx < modes_.hi[0]; kx += lanes)
+        solve_block(spectrum, pressure, kx, ky, std::min(lanes, modes_.hi[0] - kx));
+    if (mean) store_mean(spectrum, pressure);
   }
 
  private:
   double over_h2() const { return viscosity_ / (grid_.spacing[2] * grid_.spacing[2]); }
   double normalisation() const { return 1.0 / (double(grid_.cells[0]) * grid_.cells[1]); }
 
-  /// Mean profiles of u, v, w (zero) and p: the plates drive the flow through these only.
-  std::array<std::vector<Complex>, 4> solve_mean(const std::array<View<Complex>, 3> &spectrum)
+  /// Mean profiles of u, v and p (that of w is zero): the plates drive the flow through these only.
+  void solve_mean(const std::array<View<Complex>, 3> &spectrum)
   {
     const int n = grid_.cells[2];
     const double b = over_h2(), scale = normalisation();
-    std::array<std::vector<Complex>, 4> profile;
-    profile.fill(std::vector<Complex>(n));
-
     Lanes diagonal_shift;
     diagonal_shift.setConstant(shift_);
     across_.factor(diagonal_shift, b);
@@ -67,21 +61,30 @@ class WalledModes : public ModeSolver {
       across_.re[0] += 2 * b * drive_.walls.lower[c];
       across_.re[n - 1] += 2 * b * drive_.walls.upper[c];
       across_.solve();
-      for (int k = 0; k < n; ++k) profile[c][k] = across_.re[k][0];
+      for (int k = 0; k < n; ++k) mean_velocity_[c][k] = across_.re[k][0];
     }
 
     double mean = 0;
     for (int k = 1; k < n; ++k) {
-      profile[3][k] =
-          profile[3][k - 1] + grid_.spacing[2] * (spectrum[2](0, 0, k).real() * scale + drive_.body[2]);
-      mean += profile[3][k].real() / n;
+      const double gradient = spectrum[2](0, 0, k).real() * scale + drive_.body[2];
+      mean_pressure_[k] = mean_pressure_[k - 1] + grid_.spacing[2] * gradient;
+      mean += mean_pressure_[k] / n;
     }
-    for (Complex &p : profile[3]) p -= mean;
-    return profile;
+    mean_pressure_offset_ = mean;
   }
 
-  void solve_block(const std::array<View<Complex>, 3> &spectrum, const View<Complex> *pressure, int kx, int ky,
-                   int count)
+  /// The mean mode goes through solve_block as a lane without meaning and gets its values here.
+  void store_mean(const std::array<View<Complex>, 3> &spectrum, const View<Complex> *pressure) const
+  {
+    for (int k = 0; k < grid_.cells[2]; ++k) {
+      for (int c = 0; c < 2; ++c) spectrum[c](0, 0, k) = mean_velocity_[c][k];
+      spectrum[2](0, 0, k) = 0;
+      if (pressure) (*pressure)(0, 0, k) = mean_pressure_[k] - mean_pressure_offset_;
+    }
+  }
+
+  void solve_block(const std::array<View<Complex>, 3> &spectrum, const View<Complex> *pressure,
+                   int kx, int ky, int count)
   {
     const int n = grid_.cells[2];
     const double h = grid_.spacing[2], b = over_h2(), scale = normalisation();
@@ -131,19 +134,23 @@ class WalledModes : public ModeSolver {
     };
     if (pressure)
       for (int k = 0; k < n; ++k) {
-        const auto momentum = [&](const std::vector<Lanes> &w, const std::vector<Lanes> &f) -> Lanes {
+        const auto momentum = [&](const std::vector<Lanes> &w,
+                                  const std::vector<Lanes> &f) -> Lanes {
           Lanes applied = (a + 2 * b) * continuity(w, k);
           applied -= k > 0 ? Lanes(b * continuity(w, k - 1)) : Lanes(-b * continuity(w, k));
           applied -= k < n - 1 ? Lanes(b * continuity(w, k + 1)) : Lanes(-b * continuity(w, k));
           return (applied - f[k]) / kappa;
         };
-        store(*pressure, kx, ky, k, count, momentum(vertical_.re, along_.re), momentum(vertical_.im, along_.im));
+        store(*pressure, kx, ky, k, count, momentum(vertical_.re, along_.re),
+              momentum(vertical_.im, along_.im));
       }
 
     for (int k = 0; k < n; ++k) {
       const Lanes along_re = continuity(vertical_.im, k), along_im = -continuity(vertical_.re, k);
-      Lanes u_re = along_x * along_re - along_y * across_.re[k], u_im = along_x * along_im - along_y * across_.im[k];
-      Lanes v_re = along_y * along_re + along_x * across_.re[k], v_im = along_y * along_im + along_x * across_.im[k];
+      Lanes u_re = along_x * along_re - along_y * across_.re[k],
+            u_im = along_x * along_im - along_y * across_.im[k];
+      Lanes v_re = along_y * along_re + along_x * across_.re[k],
+            v_im = along_y * along_im + along_x * across_.im[k];
       rotate(u_re, u_im, ex_re, -ex_im);
       rotate(v_re, v_im, Lanes::Constant(ey.real()), Lanes::Constant(-ey.imag()));
       store(spectrum[0], kx, ky, k, count, u_re, u_im);
@@ -152,7 +159,8 @@ class WalledModes : public ModeSolver {
     }
   }
 
-  static void load(const View<Complex> &from, int kx, int ky, int k, int count, Lanes &re, Lanes &im)
+  static void load(const View<Complex> &from, int kx, int ky, int k, int count, Lanes &re,
+                   Lanes &im)
   {
     const Complex *row = &from(kx, ky, k);
     if (count == lanes) {
@@ -170,7 +178,8 @@ class WalledModes : public ModeSolver {
     }
   }
 
-  static void store(const View<Complex> &to, int kx, int ky, int k, int count, const Lanes &re, const Lanes &im)
+  static void store(const View<Complex> &to, int kx, int ky, int k, int count, const Lanes &re,
+                    const Lanes &im)
   {
     Complex *row = &to(kx, ky, k);
     if (count == lanes)
@@ -194,12 +203,15 @@ class WalledModes : public ModeSolver {
   HelmholtzColumns<lanes> across_;
   Columns<lanes> along_;
   VerticalColumns<lanes> vertical_;
+  std::array<std::vector<double>, 2> mean_velocity_;
+  std::vector<double> mean_pressure_;
+  double mean_pressure_offset_ = 0;
 };
 
 }    // namespace
 
-std::unique_ptr<ModeSolver> make_walled_modes(const Grid &grid, const Box &modes, double viscosity, double shift,
-                                              const Drive &drive)
+std::unique_ptr<ModeSolver> make_walled_modes(const Grid &grid, const Box &modes, double viscosity,
+                                              double shift, const Drive &drive)
 {
   return std::make_unique<WalledModes>(grid, modes, viscosity, shift, drive);
 }

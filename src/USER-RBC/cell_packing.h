@@ -40,17 +40,22 @@ class CellPacking {
     Bin bin;
     for (int d = 0; d < 3; ++d) {
       const int b = static_cast<int>(std::floor((x[d] - lo_[d]) / length_[d] * bins_[d]));
-      bin[d] = periodic_[d] ? (b % bins_[d] + bins_[d]) % bins_[d] : std::min(std::max(b, 0), bins_[d] - 1);
+      bin[d] = periodic_[d] ? (b % bins_[d] + bins_[d]) % bins_[d]
+                            : std::min(std::max(b, 0), bins_[d] - 1);
     }
     return bin;
   }
 
-  long key(const Bin &bin) const { return bin[0] + long(bins_[0]) * (bin[1] + long(bins_[1]) * bin[2]); }
+  long key(const Bin &bin) const
+  {
+    return bin[0] + long(bins_[0]) * (bin[1] + long(bins_[1]) * bin[2]);
+  }
 
   bool clear_of_sides(const Vec3 &x) const
   {
     for (int d = 0; d < 3; ++d)
-      if (!periodic_[d] && (x[d] < lo_[d] + gap_ / 2 || x[d] > lo_[d] + length_[d] - gap_ / 2)) return false;
+      if (!periodic_[d] && (x[d] < lo_[d] + gap_ / 2 || x[d] > lo_[d] + length_[d] - gap_ / 2))
+        return false;
     return true;
   }
 

@@ -23,7 +23,8 @@ struct VolumeMoments {
     area += (b - a).cross(c - a).norm() / 2;
     volume += tetrahedron;
     first += tetrahedron / 4 * sum;
-    second += tetrahedron / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+    second += tetrahedron / 20 *
+              (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
   }
 
   Vec3 centre() const { return first / volume; }
@@ -37,15 +38,20 @@ struct InertiaEllipsoid {
   explicit InertiaEllipsoid(const VolumeMoments &moments)
   {
     const Vec3 centre = moments.centre();
-    const Eigen::Matrix3d covariance = moments.second / moments.volume - centre * centre.transpose();
+    const Eigen::Matrix3d covariance =
+        moments.second / moments.volume - centre * centre.transpose();
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
-    for (int n = 0; n < 3; ++n) semi_axes[n] = std::sqrt(5 * std::max(0.0, eigen.eigenvalues()[2 - n]));
+    for (int n = 0; n < 3; ++n)
+      semi_axes[n] = std::sqrt(5 * std::max(0.0, eigen.eigenvalues()[2 - n]));
     long_axis = directed(eigen.eigenvectors().col(2));
     short_axis = directed(eigen.eigenvectors().col(0));
   }
 
   /// Taylor deformation (L - B) / (L + B) of the longest and the shortest axis.
-  double deformation() const { return (semi_axes[0] - semi_axes[2]) / (semi_axes[0] + semi_axes[2]); }
+  double deformation() const
+  {
+    return (semi_axes[0] - semi_axes[2]) / (semi_axes[0] + semi_axes[2]);
+  }
 
  private:
   /// An axis has no sign: its first component that is not zero is made positive.

@@ -18,7 +18,16 @@ static constexpr int NCOLS = 19;
 // sums over a cell, in its own coordinates: area, volume, first and second moments, velocity, vertices,
 // and the cell's origin times the vertices
 
-enum { AREA, VOLUME, FIRST, SECOND = FIRST + 3, SPEED = SECOND + 6, COUNT = SPEED + 3, ORIGIN, NSUMS = ORIGIN + 3 };
+enum {
+  AREA,
+  VOLUME,
+  FIRST,
+  SECOND = FIRST + 3,
+  SPEED = SECOND + 6,
+  COUNT = SPEED + 3,
+  ORIGIN,
+  NSUMS = ORIGIN + 3
+};
 
 /* ---------------------------------------------------------------------- */
 
@@ -46,7 +55,8 @@ void ComputeRBCCell::init()
   membranes.clear();
   for (Fix *fix : modify->get_fix_by_style("^rbc/membrane$"))
     membranes.push_back(dynamic_cast<FixRBCMembrane *>(fix));
-  if (membranes.empty()) error->all(FLERR, "Compute rbc/cell {} needs a fix rbc/membrane: it knows the cells", id);
+  if (membranes.empty())
+    error->all(FLERR, "Compute rbc/cell {} needs a fix rbc/membrane: it knows the cells", id);
 
   molecules.clear();
   for (FixRBCMembrane *fix : membranes) {
@@ -56,7 +66,8 @@ void ComputeRBCCell::init()
   }
   std::sort(molecules.begin(), molecules.end());
   if (std::adjacent_find(molecules.begin(), molecules.end()) != molecules.end())
-    error->all(FLERR, "Compute rbc/cell {}: molecule ID {} belongs to more than one fix rbc/membrane", id,
+    error->all(FLERR,
+               "Compute rbc/cell {}: molecule ID {} belongs to more than one fix rbc/membrane", id,
                *std::adjacent_find(molecules.begin(), molecules.end()));
 
   if (igroup != 0) {
@@ -65,7 +76,8 @@ void ComputeRBCCell::init()
       const int row = row_of(atom->molecule[i]);
       if (row >= 0 && !(atom->mask[i] & groupbit)) outside[row] = 1;
     }
-    MPI_Allreduce(MPI_IN_PLACE, outside.data(), static_cast<int>(outside.size()), MPI_INT, MPI_MAX, world);
+    MPI_Allreduce(MPI_IN_PLACE, outside.data(), static_cast<int>(outside.size()), MPI_INT, MPI_MAX,
+                  world);
     std::vector<tagint> inside;
     for (std::size_t n = 0; n < molecules.size(); ++n)
       if (!outside[n]) inside.push_back(molecules[n]);
@@ -83,7 +95,9 @@ void ComputeRBCCell::init()
 int ComputeRBCCell::row_of(tagint molecule) const
 {
   const auto found = std::lower_bound(molecules.begin(), molecules.end(), molecule);
-  return found != molecules.end() && *found == molecule ? static_cast<int>(found - molecules.begin()) : -1;
+  return found != molecules.end() && *found == molecule
+             ? static_cast<int>(found - molecules.begin())
+             : -1;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -93,7 +107,8 @@ void ComputeRBCCell::compute_array()
   invoked_array = update->ntimestep;
   sums.assign(molecules.size() * NSUMS, 0.0);
   for (FixRBCMembrane *fix : membranes) add_sums(fix);
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
+                world);
 
   for (std::size_t n = 0; n < molecules.size(); ++n) {
     const double *s = &sums[n * NSUMS];

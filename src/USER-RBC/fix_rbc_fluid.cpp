@@ -16,7 +16,8 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 
 static constexpr int MIN_CELLS = 4;
-static constexpr int KERNEL_LAYERS = 3;    // reach of the widest kernel beyond a subdomain, staggering included
+static constexpr int KERNEL_LAYERS =
+    3;    // reach of the widest kernel beyond a subdomain, staggering included
 
 /* ---------------------------------------------------------------------- */
 
@@ -30,7 +31,8 @@ FixRBCFluid::FixRBCFluid(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg
   pergrid_flag = 1;
   pergrid_freq = 1;
 
-  if (domain->box_exist == 0) error->all(FLERR, "Fix rbc/fluid must be used after the simulation box is defined");
+  if (domain->box_exist == 0)
+    error->all(FLERR, "Fix rbc/fluid must be used after the simulation box is defined");
   if (domain->dimension != 3) error->all(FLERR, "Fix rbc/fluid requires a 3d simulation");
   if (domain->triclinic) error->all(FLERR, "Fix rbc/fluid requires an orthogonal simulation box");
   if (!domain->xperiodic || !domain->yperiodic)
@@ -58,7 +60,8 @@ FixRBCFluid::~FixRBCFluid()
 void FixRBCFluid::parse_vector(int iarg, int narg, char **arg, const char *keyword,
                                std::array<NumberOrVariable, 3> &vector)
 {
-  if (iarg + 3 > narg) utils::missing_cmd_args(FLERR, std::string("fix rbc/fluid ") + keyword, error);
+  if (iarg + 3 > narg)
+    utils::missing_cmd_args(FLERR, std::string("fix rbc/fluid ") + keyword, error);
   for (int d = 0; d < 3; ++d) vector[d] = NumberOrVariable(lmp, arg[iarg + d]);
 }
 
@@ -69,11 +72,13 @@ void FixRBCFluid::parse(int narg, char **arg)
   bool wall_given[2] = {false, false};
   int iarg = 3;
   const auto need = [&](int n, const char *keyword) {
-    if (iarg + n >= narg) utils::missing_cmd_args(FLERR, std::string("fix rbc/fluid ") + keyword, error);
+    if (iarg + n >= narg)
+      utils::missing_cmd_args(FLERR, std::string("fix rbc/fluid ") + keyword, error);
   };
   const auto positive = [&](int at, const char *keyword) {
     const double value = utils::numeric(FLERR, arg[at], false, lmp);
-    if (!(value > 0)) error->all(FLERR, at, "Fix rbc/fluid {} value {} must be > 0", keyword, arg[at]);
+    if (!(value > 0))
+      error->all(FLERR, at, "Fix rbc/fluid {} value {} must be > 0", keyword, arg[at]);
     return value;
   };
 
@@ -88,7 +93,8 @@ void FixRBCFluid::parse(int narg, char **arg)
       for (int d = 0; d < 3; ++d) {
         cells[d] = utils::inumeric(FLERR, arg[iarg + 1 + d], false, lmp);
         if (cells[d] < MIN_CELLS)
-          error->all(FLERR, iarg + 1 + d, "Fix rbc/fluid grid value {} must be at least {} cells in every direction",
+          error->all(FLERR, iarg + 1 + d,
+                     "Fix rbc/fluid grid value {} must be at least {} cells in every direction",
                      arg[iarg + 1 + d], MIN_CELLS);
       }
       iarg += 4;
@@ -103,12 +109,15 @@ void FixRBCFluid::parse(int narg, char **arg)
     } else if (keyword == "inertia") {
       need(1, "inertia");
       if (strcmp(arg[iarg + 1], "none") != 0)
-        error->all(FLERR, iarg + 1, "Fix rbc/fluid inertia value {} is not available; allowed: none", arg[iarg + 1]);
+        error->all(FLERR, iarg + 1,
+                   "Fix rbc/fluid inertia value {} is not available; allowed: none", arg[iarg + 1]);
       iarg += 2;
     } else if (keyword == "scheme") {
       need(1, "scheme");
       if (strcmp(arg[iarg + 1], "coupled") != 0)
-        error->all(FLERR, iarg + 1, "Fix rbc/fluid scheme value {} is not available; allowed: coupled", arg[iarg + 1]);
+        error->all(FLERR, iarg + 1,
+                   "Fix rbc/fluid scheme value {} is not available; allowed: coupled",
+                   arg[iarg + 1]);
       iarg += 2;
     } else if (keyword == "wall") {
       need(1, "wall");
@@ -116,12 +125,16 @@ void FixRBCFluid::parse(int narg, char **arg)
       if (side != "zlo" && side != "zhi")
         error->all(FLERR, iarg + 1, "Fix rbc/fluid wall side {} must be zlo or zhi", side);
       if (domain->zperiodic)
-        error->all(FLERR, iarg, "Fix rbc/fluid wall {} on a periodic side: z must be fixed (boundary p p f)", side);
+        error->all(FLERR, iarg,
+                   "Fix rbc/fluid wall {} on a periodic side: z must be fixed (boundary p p f)",
+                   side);
       parse_vector(iarg + 2, narg, arg, "wall", side == "zlo" ? lower : upper);
       const NumberOrVariable &normal = (side == "zlo" ? lower : upper)[2];
       if (normal.is_variable() || normal.value(lmp) != 0)
-        error->all(FLERR, iarg + 4, "Fix rbc/fluid wall {} velocity {} along z must be 0: plates move along themselves",
-                   side, arg[iarg + 4]);
+        error->all(
+            FLERR, iarg + 4,
+            "Fix rbc/fluid wall {} velocity {} along z must be 0: plates move along themselves",
+            side, arg[iarg + 4]);
       wall_given[side == "zhi"] = true;
       iarg += 5;
     } else if (keyword == "body") {
@@ -129,7 +142,8 @@ void FixRBCFluid::parse(int narg, char **arg)
       iarg += 4;
     } else
       error->all(FLERR, iarg,
-                 "Unknown fix rbc/fluid keyword {}; allowed: dx, grid, viscosity, density, inertia, scheme, wall, body",
+                 "Unknown fix rbc/fluid keyword {}; allowed: dx, grid, viscosity, density, "
+                 "inertia, scheme, wall, body",
                  keyword);
   }
 
@@ -139,11 +153,13 @@ void FixRBCFluid::parse(int narg, char **arg)
   if (!walls && comm->me == 0)
     for (const NumberOrVariable &component : body)
       if (component.is_variable() || component.value(lmp) != 0) {
-        error->warning(FLERR, "Fix rbc/fluid body has no effect in a triply periodic box: a pressure gradient balances it");
+        error->warning(FLERR, "Fix rbc/fluid body has no effect in a triply periodic box: a "
+                              "pressure gradient balances it");
         break;
       }
   if (target_spacing == 0 && cells[0] == 0) error->all(FLERR, "Fix rbc/fluid needs dx or grid");
-  if (target_spacing > 0 && cells[0] > 0) error->all(FLERR, "Fix rbc/fluid takes either dx or grid, not both");
+  if (target_spacing > 0 && cells[0] > 0)
+    error->all(FLERR, "Fix rbc/fluid takes either dx or grid, not both");
   if (viscosity == 0) error->all(FLERR, "Fix rbc/fluid needs viscosity");
   if (density == 0) error->all(FLERR, "Fix rbc/fluid needs density");
 }
@@ -158,8 +174,10 @@ void FixRBCFluid::choose_grid()
   for (int d = 0; d < 3; ++d) {
     const double wanted = std::round(domain->prd[d] / target_spacing);
     if (wanted < MIN_CELLS)
-      error->all(FLERR, "Fix rbc/fluid dx {} leaves {} cells in {}; at least {} are needed (dx at most {})",
-                 target_spacing, wanted, "xyz"[d], MIN_CELLS, domain->prd[d] / MIN_CELLS);
+      error->all(
+          FLERR,
+          "Fix rbc/fluid dx {} leaves {} cells in {}; at least {} are needed (dx at most {})",
+          target_spacing, wanted, "xyz"[d], MIN_CELLS, domain -> prd[d] / MIN_CELLS);
     cells[d] = static_cast<int>(std::min<double>(wanted, MAXSMALLINT));
   }
 }
@@ -172,11 +190,13 @@ void FixRBCFluid::check_grid() const
 {
   const double each = double(cells[0]) * cells[1] * cells[2] / comm->nprocs;
   if (each > 0.5 * MAXSMALLINT)
-    error->all(FLERR, "Fix rbc/fluid {} {} asks for {:.3g} cells per MPI task; at most {:.3g} are possible",
-               target_spacing > 0 ? "dx" : "grid",
-               target_spacing > 0 ? fmt::format("{}", target_spacing)
-                                  : fmt::format("{} {} {}", cells[0], cells[1], cells[2]),
-               each, 0.5 * MAXSMALLINT);
+    error->all(
+        FLERR,
+        "Fix rbc/fluid {} {} asks for {:.3g} cells per MPI task; at most {:.3g} are possible",
+        target_spacing > 0 ? "dx" : "grid",
+        target_spacing > 0 ? fmt::format("{}", target_spacing)
+                           : fmt::format("{} {} {}", cells[0], cells[1], cells[2]),
+        each, 0.5 * MAXSMALLINT);
 }
 
 /* ----------------------------------------------------------------------
@@ -186,7 +206,8 @@ void FixRBCFluid::check_grid() const
 int FixRBCFluid::layers_needed() const
 {
   double layers = 0;
-  for (int d = 0; d < 3; ++d) layers = std::max(layers, 0.5 * neighbor->skin / (domain->prd[d] / cells[d]) + 0.5);
+  for (int d = 0; d < 3; ++d)
+    layers = std::max(layers, 0.5 * neighbor->skin / (domain->prd[d] / cells[d]) + 0.5);
   return static_cast<int>(std::ceil(layers)) + KERNEL_LAYERS;
 }
 
@@ -197,8 +218,8 @@ void FixRBCFluid::build_flow()
   free_data();
   grid = std::make_unique<Grid3d>(lmp, world, cells[0], cells[1], cells[2]);
   int lo[3], hi[3], outlo[3], outhi[3];
-  grid->setup_grid(lo[0], hi[0], lo[1], hi[1], lo[2], hi[2], outlo[0], outhi[0], outlo[1], outhi[1], outlo[2],
-                   outhi[2]);
+  grid->setup_grid(lo[0], hi[0], lo[1], hi[1], lo[2], hi[2], outlo[0], outhi[0], outlo[1], outhi[1],
+                   outlo[2], outhi[2]);
 
   fluid::Grid staggered;
   fluid::Box brick;
@@ -212,8 +233,8 @@ void FixRBCFluid::build_flow()
   staggered.walls = walls;
 
   ghost_layers = layers_needed();
-  stokes_flow =
-      std::make_unique<fluid::Flow>(staggered, fluid::Decomposition(world, brick), ghost_layers, viscosity);
+  stokes_flow = std::make_unique<fluid::Flow>(staggered, fluid::Decomposition(world, brick),
+                                              ghost_layers, viscosity);
   measured_solves = -1;
   current = false;
 }
@@ -235,7 +256,8 @@ void FixRBCFluid::init()
     error->all(FLERR, "Fix rbc/fluid cannot be used with a changing simulation box");
   for (int d = 0; d < 3; ++d)
     if (domain->boxlo[d] != box_lo[d] || domain->boxhi[d] != box_hi[d])
-      error->all(FLERR, "Fix rbc/fluid {}: the simulation box has changed since the fix was defined", id);
+      error->all(FLERR,
+                 "Fix rbc/fluid {}: the simulation box has changed since the fix was defined", id);
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix rbc/fluid cannot be used with run_style respa");
   for (const auto *vector : {&lower, &upper, &body})
@@ -250,7 +272,8 @@ void FixRBCFluid::init()
 void FixRBCFluid::attach(const std::string &fix_id)
 {
   if (!driver.empty() && driver != fix_id && modify->get_fix_by_id(driver))
-    error->all(FLERR, "Fix rbc/ib {} cannot use fix rbc/fluid {}: fix rbc/ib {} already does", fix_id, id, driver);
+    error->all(FLERR, "Fix rbc/ib {} cannot use fix rbc/fluid {}: fix rbc/ib {} already does",
+               fix_id, id, driver);
   driver = fix_id;
 }
 
@@ -299,6 +322,13 @@ void FixRBCFluid::update_drive(bool middle)
     now.body[d] = body[d].value(lmp) * force->ftm2v;
   }
   modify->addstep_compute(update->ntimestep + 1);
+
+  for (const auto *vector : {&now.walls.lower, &now.walls.upper, &now.body})
+    for (double component : *vector)
+      if (!std::isfinite(component))
+        error->all(FLERR,
+                   "Fix rbc/fluid {}: a plate velocity or body force is not a number at step {}",
+                   id, update->ntimestep);
 
   fluid::Drive &drive = stokes_flow->drive;
   if (middle)
@@ -397,11 +427,13 @@ void *FixRBCFluid::get_griddata_by_index(int index)
   if (!data[index]) {
     if (index == PRESSURE) {
       double ***p = nullptr;
-      memory->create3d_offset(p, lo[2], hi[2] - 1, lo[1], hi[1] - 1, lo[0], hi[0] - 1, "rbc/fluid:pressure");
+      memory->create3d_offset(p, lo[2], hi[2] - 1, lo[1], hi[1] - 1, lo[0], hi[0] - 1,
+                              "rbc/fluid:pressure");
       data[index] = p;
     } else {
       double ****v = nullptr;
-      memory->create4d_offset_last(v, lo[2], hi[2] - 1, lo[1], hi[1] - 1, lo[0], hi[0] - 1, 3, "rbc/fluid:data");
+      memory->create4d_offset_last(v, lo[2], hi[2] - 1, lo[1], hi[1] - 1, lo[0], hi[0] - 1, 3,
+                                   "rbc/fluid:data");
       data[index] = v;
     }
     data_solves[index] = -1;
@@ -417,11 +449,12 @@ void *FixRBCFluid::get_griddata_by_index(int index)
       for (int j = lo[1]; j < hi[1]; ++j)
         for (int i = lo[0]; i < hi[0]; ++i) p[k][j][i] = pressure(i, j, k) * to_pressure;
   } else if (index == VELOCITY)
-    fill_velocity_or_force(static_cast<double ****>(data[index]), stokes_flow->velocity(), {0, 0, 0}, 1.0);
+    fill_velocity_or_force(static_cast<double ****>(data[index]), stokes_flow->velocity(),
+                           {0, 0, 0}, 1.0);
   else {
     stokes_flow->share_force();
-    fill_velocity_or_force(static_cast<double ****>(data[index]), stokes_flow->force(), stokes_flow->drive.body,
-                           1.0 / force->ftm2v);
+    fill_velocity_or_force(static_cast<double ****>(data[index]), stokes_flow->force(),
+                           stokes_flow->drive.body, 1.0 / force->ftm2v);
   }
   return data[index];
 }

@@ -78,7 +78,8 @@ class FixRBCFluid : public Fix {
   void build_flow();
   void solve_alone();
   void free_data();
-  void fill_velocity_or_force(double ****, const fluid::VectorField &, const std::array<double, 3> &, double);
+  void fill_velocity_or_force(double ****, const fluid::VectorField &,
+                              const std::array<double, 3> &, double);
   const fluid::FlowMeasures &measure();
 };
 

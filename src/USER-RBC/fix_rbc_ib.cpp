@@ -47,12 +47,15 @@ FixRBCIB::FixRBCIB(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
       else if (value == "euler")
         integrator = Integrator::EULER;
       else
-        error->all(FLERR, iarg + 1, "Unknown fix rbc/ib integrator {}; allowed: euler, midpoint", value);
+        error->all(FLERR, iarg + 1, "Unknown fix rbc/ib integrator {}; allowed: euler, midpoint",
+                   value);
     } else if (keyword == "scheme") {
       if (value != "elastic")
-        error->all(FLERR, iarg + 1, "Fix rbc/ib scheme {} is not available; allowed: elastic", value);
+        error->all(FLERR, iarg + 1, "Fix rbc/ib scheme {} is not available; allowed: elastic",
+                   value);
     } else
-      error->all(FLERR, iarg, "Unknown fix rbc/ib keyword {}; allowed: kernel, scheme, integrator", keyword);
+      error->all(FLERR, iarg, "Unknown fix rbc/ib keyword {}; allowed: kernel, scheme, integrator",
+                 keyword);
     iarg += 2;
   }
 }
@@ -69,7 +72,8 @@ int FixRBCIB::setmask()
 void FixRBCIB::init()
 {
   fluid_fix = dynamic_cast<FixRBCFluid *>(modify->get_fix_by_id(fluid_id));
-  if (!fluid_fix) error->all(FLERR, "Fix rbc/ib {}: there is no fix rbc/fluid with ID {}", id, fluid_id);
+  if (!fluid_fix)
+    error->all(FLERR, "Fix rbc/ib {}: there is no fix rbc/fluid with ID {}", id, fluid_id);
   fluid_fix->attach(id);
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix rbc/ib cannot be used with run_style respa");
@@ -84,7 +88,8 @@ void FixRBCIB::init()
     if (!before && (modify->get_fix_mask(fix) & POST_FORCE)) late_forces = true;
     auto membrane = dynamic_cast<FixRBCMembrane *>(fix);
     if (!membrane) continue;
-    if (!before) error->all(FLERR, "Fix rbc/ib {} must be defined after fix rbc/membrane {}", id, fix->id);
+    if (!before)
+      error->all(FLERR, "Fix rbc/ib {} must be defined after fix rbc/membrane {}", id, fix->id);
     if (membrane->keeps_volume()) check_moves_all(fix);
     membranes.push_back(membrane);
     if (membrane->keeps_volume()) keepers.push_back(membrane);
@@ -102,7 +107,9 @@ void FixRBCIB::check_moves_all(const Fix *membrane) const
     if ((atom->mask[i] & membrane->groupbit) && !(atom->mask[i] & groupbit)) left_out = 1;
   MPI_Allreduce(MPI_IN_PLACE, &left_out, 1, MPI_INT, MPI_MAX, world);
   if (left_out)
-    error->all(FLERR, "Fix rbc/ib {} does not move all atoms of fix rbc/membrane {}, which keeps the volume of its cells",
+    error->all(FLERR,
+               "Fix rbc/ib {} does not move all atoms of fix rbc/membrane {}, which keeps the "
+               "volume of its cells",
                id, membrane->id);
 }
 
@@ -147,7 +154,8 @@ void FixRBCIB::initial_integrate(int /*vflag*/)
   const auto move = [&](double span) {
     const double *const v = members.empty() ? nullptr : atom->v[0];
     for (int n = 0; n < count; ++n)
-      for (int d = 0; d < 3; ++d) x[3 * members[n] + d] = start_of_step[3 * n + d] + span * v[3 * members[n] + d];
+      for (int d = 0; d < 3; ++d)
+        x[3 * members[n] + d] = start_of_step[3 * n + d] + span * v[3 * members[n] + d];
   };
 
   for (int n = 0; n < count; ++n)
@@ -210,7 +218,10 @@ void FixRBCIB::update_velocities(bool new_step, bool new_drive)
   spreading.start();
   flow.clear_force();
   const int outside = flow.spread(kernel, markers, x, f, force->ftm2v);
-  if (outside >= 0) stop(outside, "left the part of the fluid its MPI task holds (reneighboring too rare, see neigh_modify)");
+  if (outside >= 0)
+    stop(
+        outside,
+        "left the part of the fluid its MPI task holds (reneighboring too rare, see neigh_modify)");
   spreading.stop();
 
   exchanging.start();
@@ -259,7 +270,8 @@ void FixRBCIB::check_velocities() const
     const double speed2 = v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2];
     if (speed2 <= fastest * fastest) continue;
     if (std::isfinite(speed2))
-      stop(i, fmt::format("would cross {:.3g} fluid cells in a step (CFL above 1; timestep too large or unstable)",
+      stop(i, fmt::format("would cross {:.3g} fluid cells in a step (CFL above 1; timestep too "
+                          "large or unstable)",
                           std::sqrt(speed2) / fastest));
     stop(i, "has a velocity that is not a number");
   }
@@ -268,9 +280,11 @@ void FixRBCIB::check_velocities() const
 void FixRBCIB::stop(int i, const std::string &what) const
 {
   double **const x = atom->x;
-  error->one(FLERR, "Fix rbc/ib {}: vertex with atom ID {} {} at step {}: molecule ID {} at ({:.6g}, {:.6g}, {:.6g})", id,
-             atom->tag[i], what, update->ntimestep, atom->molecule_flag ? atom->molecule[i] : 0, x[i][0], x[i][1],
-             x[i][2]);
+  error->one(FLERR,
+             "Fix rbc/ib {}: vertex with atom ID {} {} at step {}: molecule ID {} at ({:.6g}, "
+             "{:.6g}, {:.6g})",
+             id, atom->tag[i], what, update->ntimestep, atom->molecule_flag ? atom->molecule[i] : 0,
+             x[i][0], x[i][1], x[i][2]);
 }
 
 /* ----------------------------------------------------------------------
@@ -293,16 +307,18 @@ void FixRBCIB::post_run()
   const double cells = static_cast<double>(fluid_fix->flow().grid().size());
   const double sum = seconds[0] + seconds[1] + seconds[2] + seconds[3] + seconds[4];
   const bigint steps = update->ntimestep - first_step;
-  std::string text = fmt::format(
-      "\nUSER-RBC step cost: {} solves in {} steps, {} vertices, {:.0f} fluid cells, {} MPI task{}\n"
-      "Section     | core s/solve | us/vertex | ns/cell | %share\n"
-      "-------------------------------------------------------\n",
-      solves, steps, vertices, cells, comm->nprocs, comm->nprocs > 1 ? "s" : "");
+  std::string text =
+      fmt::format("\nUSER-RBC step cost: {} solves in {} steps, {} vertices, {:.0f} fluid cells, "
+                  "{} MPI task{}\n"
+                  "Section     | core s/solve | us/vertex | ns/cell | %share\n"
+                  "-------------------------------------------------------\n",
+                  solves, steps, vertices, cells, comm->nprocs, comm->nprocs > 1 ? "s" : "");
   const char *const names[5] = {"Membrane", "Spread", "Solve", "Interpolate", "Exchange"};
   for (int n = 0; n <= 5; ++n) {
     const double each = (n < 5 ? seconds[n] : sum) / solves;
-    text += fmt::format("{:<11} | {:12.5g} | {:9.4g} | {:7.4g} | {:6.2f}\n", n < 5 ? names[n] : "Total", each,
-                        vertices > 0 ? each / vertices * 1e6 : 0.0, each / cells * 1e9, 100 * each * solves / sum);
+    text += fmt::format(
+        "{:<11} | {:12.5g} | {:9.4g} | {:7.4g} | {:6.2f}\n", n < 5 ? names[n] : "Total", each,
+        vertices > 0 ? each / vertices * 1e6 : 0.0, each / cells * 1e9, 100 * each * solves / sum);
   }
   utils::logmesg(lmp, text);
 }
@@ -311,5 +327,6 @@ void FixRBCIB::post_run()
 
 double FixRBCIB::memory_usage()
 {
-  return static_cast<double>(members.capacity() * sizeof(int) + start_of_step.capacity() * sizeof(double));
+  return static_cast<double>(members.capacity() * sizeof(int) +
+                             start_of_step.capacity() * sizeof(double));
 }

@@ -39,11 +39,12 @@ class FixRBCIB : public Fix {
   class FixRBCFluid *fluid_fix = nullptr;
   std::vector<class FixRBCMembrane *> membranes, keepers;
 
-  std::vector<int> members;              // atoms of the group here
-  std::vector<double> start_of_step;     // their positions
+  std::vector<int> members;             // atoms of the group here
+  std::vector<double> start_of_step;    // their positions
   rbc::Stopwatch spreading, solving, interpolating, exchanging;
   bigint first_solve = 0, first_step = 0;
-  bool late_forces = false;    // a fix defined after this one adds forces, which setup() does not see
+  bool late_forces =
+      false;    // a fix defined after this one adds forces, which setup() does not see
 
   void update_velocities(bool new_step, bool new_drive = true);
   void recompute_forces();

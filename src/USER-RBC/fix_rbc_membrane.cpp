@@ -34,7 +34,8 @@ FixRBCMembrane::FixRBCMembrane(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, nar
   template_id = arg[3];
   surface = make_cell_template(lmp, template_id, "fix rbc/membrane");
   model = std::make_unique<rbc::MembraneModel>(*surface, parse(narg, arg));
-  cells = std::make_unique<LocalCells>(lmp, *surface, groupbit, fmt::format("Fix rbc/membrane {}", id));
+  cells =
+      std::make_unique<LocalCells>(lmp, *surface, groupbit, fmt::format("Fix rbc/membrane {}", id));
   x.resize(surface->size());
   f.resize(surface->size());
 }
@@ -55,20 +56,22 @@ rbc::MembraneParameters FixRBCMembrane::parse(int narg, char **arg)
   };
   const auto not_negative = [&](int at, const std::string &name) {
     const double value = utils::numeric(FLERR, arg[at], false, lmp);
-    if (!(value >= 0)) error->all(FLERR, at, "Fix rbc/membrane {} value {} must be >= 0", name, arg[at]);
+    if (!(value >= 0))
+      error->all(FLERR, at, "Fix rbc/membrane {} value {} must be >= 0", name, arg[at]);
     return value;
   };
   const auto positive = [&](int at, const std::string &name) {
     const double value = not_negative(at, name);
-    if (value == 0) error->all(FLERR, at, "Fix rbc/membrane {} value {} must be > 0", name, arg[at]);
+    if (value == 0)
+      error->all(FLERR, at, "Fix rbc/membrane {} value {} must be > 0", name, arg[at]);
     return value;
   };
 
   const std::string law = arg[iarg];
   if (law == "mooney-rivlin") {
     need(3, law);
-    parameters.law =
-        rbc::MooneyRivlin(positive(5, law + " C1"), not_negative(6, law + " C2"), positive(7, law + " h"));
+    parameters.law = rbc::MooneyRivlin(positive(5, law + " C1"), not_negative(6, law + " C2"),
+                                       positive(7, law + " h"));
     iarg += 4;
   } else if (law == "neo-hookean") {
     need(1, law);
@@ -79,7 +82,8 @@ rbc::MembraneParameters FixRBCMembrane::parse(int narg, char **arg)
     parameters.law = rbc::Skalak(positive(5, law + " Gs"), not_negative(6, law + " C"));
     iarg += 3;
   } else
-    error->all(FLERR, iarg, "Unknown fix rbc/membrane law {}; allowed: mooney-rivlin, neo-hookean, skalak", law);
+    error->all(FLERR, iarg,
+               "Unknown fix rbc/membrane law {}; allowed: mooney-rivlin, neo-hookean, skalak", law);
 
   while (iarg < narg) {
     const std::string keyword = arg[iarg];
@@ -107,12 +111,14 @@ rbc::MembraneParameters FixRBCMembrane::parse(int narg, char **arg)
       parameters.volume = 0;
       if (value != "yes" && value != "no") {
         if (!utils::is_double(value))
-          error->all(FLERR, iarg + 1, "Fix rbc/membrane volume value {} must be yes, no or a modulus", value);
+          error->all(FLERR, iarg + 1,
+                     "Fix rbc/membrane volume value {} must be yes, no or a modulus", value);
         parameters.volume = not_negative(iarg + 1, keyword);
       }
       iarg += 2;
     } else
-      error->all(FLERR, iarg, "Unknown fix rbc/membrane keyword {}; allowed: bending, area, volume", keyword);
+      error->all(FLERR, iarg, "Unknown fix rbc/membrane keyword {}; allowed: bending, area, volume",
+                 keyword);
   }
   return parameters;
 }
@@ -128,7 +134,8 @@ int FixRBCMembrane::setmask()
 
 void FixRBCMembrane::init()
 {
-  if (domain->triclinic) error->all(FLERR, "Fix rbc/membrane requires an orthogonal simulation box");
+  if (domain->triclinic)
+    error->all(FLERR, "Fix rbc/membrane requires an orthogonal simulation box");
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix rbc/membrane cannot be used with run_style respa");
   if (update->whichflag == 2) error->all(FLERR, "Fix rbc/membrane cannot be used with minimize");
@@ -139,7 +146,9 @@ void FixRBCMembrane::init()
     for (int i = 0; i < atom->nlocal; ++i)
       if ((atom->mask[i] & groupbit) && (atom->mask[i] & other->groupbit)) shared = 1;
     MPI_Allreduce(MPI_IN_PLACE, &shared, 1, MPI_INT, MPI_MAX, world);
-    if (shared) error->all(FLERR, "Fix rbc/membrane {} and {} share atoms: a cell belongs to one of them", other->id, id);
+    if (shared)
+      error->all(FLERR, "Fix rbc/membrane {} and {} share atoms: a cell belongs to one of them",
+                 other->id, id);
   }
 
   // what comm_modify cutoff asks for is left alone
@@ -200,10 +209,9 @@ void FixRBCMembrane::post_force(int vflag)
 void FixRBCMembrane::measure_cells()
 {
   const auto &local = cells->cells();
-  std::vector<Vec3> unused(surface->size());
   for (std::size_t c = 0; c < local.size(); ++c) {
     cells->gather(local[c], x);
-    const rbc::CellSize share = model->measure(*local[c].elements, x, unused);
+    const rbc::CellSize share = model->measure(*local[c].elements, x, f);
     sizes[2 * c] = share.area;
     sizes[2 * c + 1] = share.volume;
     const int inverted = model->find_inverted(*local[c].elements, x);
@@ -226,7 +234,8 @@ void FixRBCMembrane::add_forces()
   for (std::size_t c = 0; c < local.size(); ++c) {
     const LocalCells::Cell &cell = local[c];
     cells->gather(cell, x);
-    const rbc::MembraneEnergy share = model->forces(*cell.elements, x, {sizes[2 * c], sizes[2 * c + 1]}, f);
+    const rbc::MembraneEnergy share =
+        model->forces(*cell.elements, x, {sizes[2 * c], sizes[2 * c + 1]}, f);
     if (!std::isfinite(share.total())) stop(cell, "the energy of the membrane is not a number");
     energy.sheet += share.sheet;
     energy.bending += share.bending;
@@ -298,8 +307,10 @@ void FixRBCMembrane::stop(const LocalCells::Cell &cell, const std::string &what)
 {
   Vec3 centre = cell.origin;
   domain->remap(centre.data());
-  error->one(FLERR, "Fix rbc/membrane {}: {} at step {}: cell with molecule ID {} near ({:.6g}, {:.6g}, {:.6g})", id, what,
-             update->ntimestep, cells->molecules()[cell.index], centre[0], centre[1], centre[2]);
+  error->one(
+      FLERR,
+      "Fix rbc/membrane {}: {} at step {}: cell with molecule ID {} near ({:.6g}, {:.6g}, {:.6g})",
+      id, what, update->ntimestep, cells->molecules()[cell.index], centre[0], centre[1], centre[2]);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -41,9 +41,9 @@ CellElements CellElements::part(const SurfaceTemplate &shape, std::vector<char> 
 }
 
 MembraneModel::MembraneModel(const SurfaceTemplate &shape, const MembraneParameters &parameters) :
-    shape_(shape), parameters_(parameters), triangles_(shape.triangles.size()), vertex_area_(shape.size()),
-    vertex_curvature_(shape.size()), angle_(shape.hinges.size()), length_(shape.hinges.size()),
-    vertex_tension_(shape.size())
+    shape_(shape), parameters_(parameters), triangles_(shape.triangles.size()),
+    vertex_area_(shape.size()), vertex_curvature_(shape.size()), angle_(shape.hinges.size()),
+    length_(shape.hinges.size()), vertex_tension_(shape.size()), folded_(shape.triangles.size())
 {
 }
 
@@ -63,14 +63,14 @@ CellSize MembraneModel::measure(const CellElements &elements, const std::vector<
   return share;
 }
 
-MembraneEnergy MembraneModel::forces(const CellElements &elements, const std::vector<Vec3> &x, const CellSize &size,
-                                     std::vector<Vec3> &f)
+MembraneEnergy MembraneModel::forces(const CellElements &elements, const std::vector<Vec3> &x,
+                                     const CellSize &size, std::vector<Vec3> &f)
 {
   std::fill(f.begin(), f.end(), Vec3::Zero());
   triangle_geometry(elements, x);
   const double bending = parameters_.bending > 0 ? bend(elements, x, f) : 0;
-  MembraneEnergy energy =
-      std::visit([&](const auto &law) { return stretch(law, elements, x, size, f); }, parameters_.law);
+  MembraneEnergy energy = std::visit(
+      [&](const auto &law) { return stretch(law, elements, x, size, f); }, parameters_.law);
   energy.bending = bending;
   return energy;
 }
@@ -85,7 +85,8 @@ void MembraneModel::triangle_geometry(const CellElements &elements, const std::v
   }
 }
 
-double MembraneModel::bend(const CellElements &elements, const std::vector<Vec3> &x, std::vector<Vec3> &f)
+double MembraneModel::bend(const CellElements &elements, const std::vector<Vec3> &x,
+                           std::vector<Vec3> &f)
 {
   std::fill(vertex_area_.begin(), vertex_area_.end(), 0.0);
   std::fill(vertex_curvature_.begin(), vertex_curvature_.end(), 0.0);
@@ -95,7 +96,8 @@ double MembraneModel::bend(const CellElements &elements, const std::vector<Vec3>
     const Hinge &hinge = shape_.hinges[e];
     const Vec3 edge = x[hinge.b] - x[hinge.a];
     length_[e] = edge.norm();
-    angle_[e] = hinge_angle(edge / length_[e], triangles_[hinge.left].normal, triangles_[hinge.right].normal);
+    angle_[e] = hinge_angle(edge / length_[e], triangles_[hinge.left].normal,
+                            triangles_[hinge.right].normal);
     const double quarter = length_[e] * angle_[e] / 4;
     vertex_curvature_[hinge.a] += quarter;
     vertex_curvature_[hinge.b] += quarter;
@@ -106,7 +108,8 @@ double MembraneModel::bend(const CellElements &elements, const std::vector<Vec3>
   const double kappa = parameters_.bending;
   for (int v = 0; v < shape_.size(); ++v) {
     if (vertex_area_[v] == 0) continue;
-    const double rest = parameters_.reference_curvature ? shape_.curvature[v] : parameters_.spontaneous_curvature / 2;
+    const double rest = parameters_.reference_curvature ? shape_.curvature[v]
+                                                        : parameters_.spontaneous_curvature / 2;
     const double curvature = vertex_curvature_[v] / vertex_area_[v], excess = curvature - rest;
     if (elements.owned[v]) energy += 2 * kappa * excess * excess * vertex_area_[v];
     vertex_curvature_[v] = 4 * kappa * excess;
@@ -121,7 +124,8 @@ double MembraneModel::bend(const CellElements &elements, const std::vector<Vec3>
     const Triangle &left = triangles_[hinge.left], &right = triangles_[hinge.right];
     const Vec3 left_slope = left.normal * (length / (2 * left.area));
     const Vec3 right_slope = right.normal * (length / (2 * right.area));
-    const double c = (x[hinge.c] - x[hinge.a]).dot(edge) / square, d = (x[hinge.d] - x[hinge.a]).dot(edge) / square;
+    const double c = (x[hinge.c] - x[hinge.a]).dot(edge) / square,
+                 d = (x[hinge.d] - x[hinge.a]).dot(edge) / square;
     const double bending = moment * length;
     const Vec3 stretching = edge * (moment * angle_[e] / length);
     f[hinge.a] += stretching - bending * ((1 - c) * left_slope + (1 - d) * right_slope);
@@ -133,12 +137,14 @@ double MembraneModel::bend(const CellElements &elements, const std::vector<Vec3>
 }
 
 template <typename Law>
-MembraneEnergy MembraneModel::stretch(const Law &law, const CellElements &elements, const std::vector<Vec3> &x,
-                                      const CellSize &size, std::vector<Vec3> &f) const
+MembraneEnergy MembraneModel::stretch(const Law &law, const CellElements &elements,
+                                      const std::vector<Vec3> &x, const CellSize &size,
+                                      std::vector<Vec3> &f) const
 {
   MembraneEnergy energy;
   const double global_strain = (size.area - shape_.area) / shape_.area;
-  const double global_tension = parameters_.global_area > 0 ? parameters_.global_area * global_strain : 0;
+  const double global_tension =
+      parameters_.global_area > 0 ? parameters_.global_area * global_strain : 0;
   const double pressure = volume_stress(size);
   for (int t : elements.triangles) {
     const auto &[i, j, k] = shape_.triangles[t];
@@ -146,11 +152,12 @@ MembraneEnergy MembraneModel::stretch(const Law &law, const CellElements &elemen
     const Vec3 e1 = x[j] - x[i], e2 = x[k] - x[i];
     const auto &[normal, area] = triangles_[t];
     const double J = area / reference.area;
-    const double i1 =
-        reference.g11 * e1.squaredNorm() + 2 * reference.g12 * e1.dot(e2) + reference.g22 * e2.squaredNorm();
+    const double i1 = reference.g11 * e1.squaredNorm() + 2 * reference.g12 * e1.dot(e2) +
+                      reference.g22 * e2.squaredNorm();
     const SheetEnergy sheet = law(i1, J);
     double tension = sheet.by_J + global_tension + parameters_.local_area * (J - 1);
-    if (parameters_.bending > 0) tension += (vertex_tension_[i] + vertex_tension_[j] + vertex_tension_[k]) / 3;
+    if (parameters_.bending > 0)
+      tension += (vertex_tension_[i] + vertex_tension_[j] + vertex_tension_[k]) / 3;
 
     const double by_metric = 2 * sheet.by_i1 * reference.area;
     const Vec3 force_j =
@@ -173,7 +180,8 @@ MembraneEnergy MembraneModel::stretch(const Law &law, const CellElements &elemen
     const double volume_strain = (size.volume - shape_.volume) / shape_.volume;
     if (parameters_.global_area > 0)
       energy.area += parameters_.global_area / 2 * global_strain * global_strain * shape_.area;
-    if (parameters_.volume > 0) energy.volume = parameters_.volume / 2 * volume_strain * volume_strain * shape_.volume;
+    if (parameters_.volume > 0)
+      energy.volume = parameters_.volume / 2 * volume_strain * volume_strain * shape_.volume;
   }
   return energy;
 }
@@ -188,12 +196,12 @@ double MembraneModel::volume_stress(const CellSize &size) const
 int MembraneModel::find_inverted(const CellElements &elements, const std::vector<Vec3> &x)
 {
   triangle_geometry(elements, x);
-  std::vector<int> folded(shape_.triangles.size());
+  std::fill(folded_.begin(), folded_.end(), 0);
   for (int e : elements.hinges) {
     const Hinge &hinge = shape_.hinges[e];
     if (triangles_[hinge.left].normal.dot(triangles_[hinge.right].normal) >= 0) continue;
     for (int t : {hinge.left, hinge.right})
-      if (++folded[t] == 3) return t;
+      if (++folded_[t] == 3) return t;
   }
   return -1;
 }

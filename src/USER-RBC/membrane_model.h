@@ -13,11 +13,12 @@ using SheetLaw = std::variant<MooneyRivlin, Skalak>;
 /// Elastic constants of a membrane. A modulus of zero switches its energy off.
 struct MembraneParameters {
   SheetLaw law = MooneyRivlin::neo_hookean(1);
-  double bending = 0;                      ///< Helfrich modulus kappa, energy
-  bool reference_curvature = true;         ///< spontaneous curvature is that of the stress-free shape, or else
-  double spontaneous_curvature = 0;        ///< c0, the sum of both principal curvatures, 1/length
+  double bending = 0;    ///< Helfrich modulus kappa, energy
+  bool reference_curvature =
+      true;    ///< spontaneous curvature is that of the stress-free shape, or else
+  double spontaneous_curvature = 0;          ///< c0, the sum of both principal curvatures, 1/length
   double global_area = 0, local_area = 0;    ///< force per length
-  double volume = 0;                       ///< force per area
+  double volume = 0;                         ///< force per area
 };
 
 /// The elements of one cell that a rank evaluates: all of them, or for a cell that other ranks share those needed
@@ -56,12 +57,13 @@ class MembraneModel {
   bool needs_size() const { return parameters_.global_area > 0 || parameters_.volume > 0; }
 
   /// This rank's share of the size, and dV/dx of every vertex whose triangles are all in `elements`.
-  CellSize measure(const CellElements &elements, const std::vector<Vec3> &x, std::vector<Vec3> &volume_gradient) const;
+  CellSize measure(const CellElements &elements, const std::vector<Vec3> &x,
+                   std::vector<Vec3> &volume_gradient) const;
 
   /// Forces on the vertices owned (others are left undefined) and this rank's share of the energy. `size` is that of
   /// the whole cell. Positions must be relative to a nearby origin.
-  MembraneEnergy forces(const CellElements &elements, const std::vector<Vec3> &x, const CellSize &size,
-                        std::vector<Vec3> &f);
+  MembraneEnergy forces(const CellElements &elements, const std::vector<Vec3> &x,
+                        const CellSize &size, std::vector<Vec3> &f);
 
   /// A triangle that lies folded over against all three neighbours, or -1.
   int find_inverted(const CellElements &elements, const std::vector<Vec3> &x);
@@ -75,8 +77,8 @@ class MembraneModel {
   void triangle_geometry(const CellElements &elements, const std::vector<Vec3> &x);
   double bend(const CellElements &elements, const std::vector<Vec3> &x, std::vector<Vec3> &f);
   template <typename Law>
-  MembraneEnergy stretch(const Law &law, const CellElements &elements, const std::vector<Vec3> &x, const CellSize &size,
-                         std::vector<Vec3> &f) const;
+  MembraneEnergy stretch(const Law &law, const CellElements &elements, const std::vector<Vec3> &x,
+                         const CellSize &size, std::vector<Vec3> &f) const;
   double volume_stress(const CellSize &size) const;
 
   const SurfaceTemplate &shape_;
@@ -87,6 +89,7 @@ class MembraneModel {
   std::vector<double> vertex_area_, vertex_curvature_;
   std::vector<double> angle_, length_;
   std::vector<double> vertex_tension_;    ///< d(bending energy)/d(vertex area)
+  std::vector<int> folded_;               ///< neighbours against which a triangle is folded over
 };
 
 }    // namespace rbc

@@ -8,21 +8,25 @@
 
 using namespace LAMMPS_NS;
 
-Molecule *LAMMPS_NS::find_cell_molecule(LAMMPS *lmp, const std::string &id, const std::string &style)
+Molecule *LAMMPS_NS::find_cell_molecule(LAMMPS *lmp, const std::string &id,
+                                        const std::string &style)
 {
   const int index = lmp->atom->find_molecule(id.c_str());
   if (index < 0) lmp->error->all(FLERR, "Molecule template ID {} for {} does not exist", id, style);
   Molecule *molecule = lmp->atom->molecules[index];
   if (molecule->nset != 1)
-    lmp->error->all(FLERR, "Molecule template {} for {} must hold one molecule, not {}", id, style, molecule->nset);
-  if (!molecule->xflag) lmp->error->all(FLERR, "Molecule template {} for {} has no Coords", id, style);
+    lmp->error->all(FLERR, "Molecule template {} for {} must hold one molecule, not {}", id, style,
+                    molecule->nset);
+  if (!molecule->xflag)
+    lmp->error->all(FLERR, "Molecule template {} for {} has no Coords", id, style);
   if (!molecule->angleflag)
-    lmp->error->all(FLERR, "Molecule template {} for {} has no Angles: they are the triangles", id, style);
+    lmp->error->all(FLERR, "Molecule template {} for {} has no Angles: they are the triangles", id,
+                    style);
   return molecule;
 }
 
-std::unique_ptr<rbc::SurfaceTemplate> LAMMPS_NS::make_cell_template(LAMMPS *lmp, const std::string &id,
-                                                                    const std::string &style)
+std::unique_ptr<rbc::SurfaceTemplate>
+LAMMPS_NS::make_cell_template(LAMMPS *lmp, const std::string &id, const std::string &style)
 {
   const Molecule *molecule = find_cell_molecule(lmp, id, style);
   std::vector<rbc::Vec3> vertices;
@@ -30,7 +34,8 @@ std::unique_ptr<rbc::SurfaceTemplate> LAMMPS_NS::make_cell_template(LAMMPS *lmp,
   for (int i = 0; i < molecule->natoms; ++i) {
     vertices.emplace_back(molecule->x[i][0], molecule->x[i][1], molecule->x[i][2]);
     for (int n = 0; n < molecule->num_angle[i]; ++n) {
-      if (molecule->angle_atom2[i][n] != i + 1) continue;    // without newton_bond every corner lists the angle
+      if (molecule->angle_atom2[i][n] != i + 1)
+        continue;    // without newton_bond every corner lists the angle
       triangles.push_back({static_cast<int>(molecule->angle_atom1[i][n]) - 1, i,
                            static_cast<int>(molecule->angle_atom3[i][n]) - 1});
     }
@@ -38,7 +43,7 @@ std::unique_ptr<rbc::SurfaceTemplate> LAMMPS_NS::make_cell_template(LAMMPS *lmp,
   try {
     return std::make_unique<rbc::SurfaceTemplate>(std::move(vertices), std::move(triangles));
   } catch (const std::invalid_argument &problem) {
-    lmp->error->all(FLERR, "Molecule template {} for {} is not a closed oriented surface: {}", id, style,
-                    problem.what());
+    lmp->error->all(FLERR, "Molecule template {} for {} is not a closed oriented surface: {}", id,
+                    style, problem.what());
   }
 }

@@ -21,9 +21,10 @@ namespace {
 /// Uniformly distributed over all rotations (Shoemake, Graphics Gems III, 1992).
 Eigen::Matrix3d random_rotation(RanPark &random)
 {
-  const double u = random.uniform(), a = MathConst::MY_2PI * random.uniform(), b = MathConst::MY_2PI * random.uniform();
-  return Eigen::Quaterniond(std::sqrt(u) * std::cos(b), std::sqrt(1 - u) * std::sin(a), std::sqrt(1 - u) * std::cos(a),
-                            std::sqrt(u) * std::sin(b))
+  const double u = random.uniform(), a = MathConst::MY_2PI * random.uniform(),
+               b = MathConst::MY_2PI * random.uniform();
+  return Eigen::Quaterniond(std::sqrt(u) * std::cos(b), std::sqrt(1 - u) * std::sin(a),
+                            std::sqrt(1 - u) * std::cos(a), std::sqrt(u) * std::sin(b))
       .toRotationMatrix();
 }
 
@@ -33,8 +34,10 @@ Eigen::Matrix3d random_rotation(RanPark &random)
 
 void RBCCreate::command(int narg, char **arg)
 {
-  if (domain->box_exist == 0) error->all(FLERR, "Rbc/create must be used after the simulation box is defined");
-  if (!atom->molecule_flag) error->all(FLERR, "Rbc/create requires atoms with molecule IDs: use atom_style molecular");
+  if (domain->box_exist == 0)
+    error->all(FLERR, "Rbc/create must be used after the simulation box is defined");
+  if (!atom->molecule_flag)
+    error->all(FLERR, "Rbc/create requires atoms with molecule IDs: use atom_style molecular");
   if (domain->triclinic) error->all(FLERR, "Rbc/create requires an orthogonal simulation box");
   parse(narg, arg);
 
@@ -44,13 +47,17 @@ void RBCCreate::command(int narg, char **arg)
     for (const Vec3 &vertex : shape->vertices) cells[0].push_back(centre + rotation * vertex);
     for (const Vec3 &vertex : cells[0])
       for (int d = 0; d < 3; ++d)
-        if (!domain->periodicity[d] && (vertex[d] <= domain->boxlo[d] || vertex[d] >= domain->boxhi[d]))
-          error->all(FLERR, "Rbc/create single: a vertex at {} {:.6g} lies outside the simulation box, {:.6g} to {:.6g}",
-                     "xyz"[d], vertex[d], domain->boxlo[d], domain->boxhi[d]);
+        if (!domain->periodicity[d] &&
+            (vertex[d] <= domain->boxlo[d] || vertex[d] >= domain->boxhi[d]))
+          error->all(FLERR,
+                     "Rbc/create single: a vertex at {} {:.6g} lies outside the simulation box, "
+                     "{:.6g} to {:.6g}",
+                     "xyz"[d], vertex[d], domain -> boxlo[d], domain -> boxhi[d]);
   } else
     cells = place_randomly();
   create_atoms(cells);
-  if (comm->me == 0) utils::logmesg(lmp, "Created {} cells of {} vertices\n", cells.size(), shape->size());
+  if (comm->me == 0)
+    utils::logmesg(lmp, "Created {} cells of {} vertices\n", cells.size(), shape->size());
 }
 
 /* ---------------------------------------------------------------------- */
@@ -70,7 +77,8 @@ void RBCCreate::parse(int narg, char **arg)
   while (iarg < narg) {
     const std::string keyword = arg[iarg];
     if (keyword == "single" || keyword == "number" || keyword == "hematocrit") {
-      if (placement) error->all(FLERR, iarg, "Rbc/create takes only one of single, number and hematocrit");
+      if (placement)
+        error->all(FLERR, iarg, "Rbc/create takes only one of single, number and hematocrit");
       placement = true;
     }
     if (keyword == "single") {
@@ -80,10 +88,13 @@ void RBCCreate::parse(int narg, char **arg)
       iarg += 4;
     } else if (keyword == "rotate") {
       need(4, keyword);
-      if (!single) error->all(FLERR, iarg, "Rbc/create rotate belongs to single: other cells are turned at random");
+      if (!single)
+        error->all(FLERR, iarg,
+                   "Rbc/create rotate belongs to single: other cells are turned at random");
       const Vec3 axis(number(iarg + 2), number(iarg + 3), number(iarg + 4));
       if (axis.norm() == 0) error->all(FLERR, iarg + 2, "Rbc/create rotate axis must not be 0 0 0");
-      rotation = Eigen::AngleAxisd(number(iarg + 1) * MathConst::DEG2RAD, axis.normalized()).toRotationMatrix();
+      rotation = Eigen::AngleAxisd(number(iarg + 1) * MathConst::DEG2RAD, axis.normalized())
+                     .toRotationMatrix();
       iarg += 5;
     } else if (keyword == "number") {
       need(1, keyword);
@@ -94,12 +105,14 @@ void RBCCreate::parse(int narg, char **arg)
       need(1, keyword);
       hematocrit = number(iarg + 1);
       if (hematocrit <= 0 || hematocrit >= 1)
-        error->all(FLERR, iarg + 1, "Rbc/create hematocrit {} must be between 0 and 1", arg[iarg + 1]);
+        error->all(FLERR, iarg + 1, "Rbc/create hematocrit {} must be between 0 and 1",
+                   arg[iarg + 1]);
       iarg += 2;
     } else if (keyword == "region") {
       need(1, keyword);
       region = domain->get_region_by_id(arg[iarg + 1]);
-      if (!region) error->all(FLERR, iarg + 1, "Region ID {} for rbc/create does not exist", arg[iarg + 1]);
+      if (!region)
+        error->all(FLERR, iarg + 1, "Region ID {} for rbc/create does not exist", arg[iarg + 1]);
       region->init();
       region->prematch();
       iarg += 2;
@@ -113,12 +126,14 @@ void RBCCreate::parse(int narg, char **arg)
       need(1, keyword);
       type = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
       if (type < 1 || type > atom->ntypes)
-        error->all(FLERR, iarg + 1, "Rbc/create type {} must be between 1 and {}", type, atom->ntypes);
+        error->all(FLERR, iarg + 1, "Rbc/create type {} must be between 1 and {}", type,
+                   atom->ntypes);
       iarg += 2;
     } else if (keyword == "overlap") {
       need(1, keyword);
       gap = number(iarg + 1);
-      if (!(gap > 0)) error->all(FLERR, iarg + 1, "Rbc/create overlap distance {} must be > 0", arg[iarg + 1]);
+      if (!(gap > 0))
+        error->all(FLERR, iarg + 1, "Rbc/create overlap distance {} must be > 0", arg[iarg + 1]);
       iarg += 2;
     } else if (keyword == "attempts") {
       need(1, keyword);
@@ -127,7 +142,8 @@ void RBCCreate::parse(int narg, char **arg)
       iarg += 2;
     } else
       error->all(FLERR, iarg,
-                 "Unknown rbc/create keyword {}; allowed: single, rotate, number, hematocrit, region, seed, type, "
+                 "Unknown rbc/create keyword {}; allowed: single, rotate, number, hematocrit, "
+                 "region, seed, type, "
                  "overlap, attempts",
                  keyword);
   }
@@ -140,8 +156,8 @@ void RBCCreate::parse(int narg, char **arg)
   if (hematocrit > 0) {
     wanted = static_cast<int>(std::lround(hematocrit * region_volume() / shape->volume));
     if (wanted < 1)
-      error->all(FLERR, "Rbc/create hematocrit {} is less than one cell in the volume of {:.6g}", hematocrit,
-                 region_volume());
+      error->all(FLERR, "Rbc/create hematocrit {} is less than one cell in the volume of {:.6g}",
+                 hematocrit, region_volume());
   }
 }
 
@@ -187,15 +203,16 @@ double RBCCreate::region_volume() const
 std::vector<RBCCreate::Vertices> RBCCreate::place_randomly()
 {
   rbc::CellPacking packing(Vec3(domain->boxlo), Vec3(domain->prd),
-                           {domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0}, gap);
+                           {domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0},
+                           gap);
 
   std::vector<int> counts(comm->nprocs), begins(comm->nprocs);
   const int mine = 3 * atom->nlocal;
   MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
   for (int r = 1; r < comm->nprocs; ++r) begins[r] = begins[r - 1] + counts[r - 1];
   std::vector<double> present(begins.back() + counts.back());
-  MPI_Allgatherv(mine ? atom->x[0] : nullptr, mine, MPI_DOUBLE, present.data(), counts.data(), begins.data(),
-                 MPI_DOUBLE, world);
+  MPI_Allgatherv(mine ? atom->x[0] : nullptr, mine, MPI_DOUBLE, present.data(), counts.data(),
+                 begins.data(), MPI_DOUBLE, world);
   Vertices others;
   for (std::size_t i = 0; i < present.size(); i += 3) others.emplace_back(&present[i]);
   packing.add(others);
@@ -215,8 +232,10 @@ std::vector<RBCCreate::Vertices> RBCCreate::place_randomly()
   for (int tries = 0; static_cast<int>(cells.size()) < wanted; ++tries) {
     if (tries == attempts)
       error->all(FLERR,
-                 "Rbc/create could place only {} of {} cells without overlap after {} attempts for the next one; the "
-                 "densest reached is a volume fraction of {:.4g} of {:.4g} wanted; use fewer cells, a smaller overlap "
+                 "Rbc/create could place only {} of {} cells without overlap after {} attempts for "
+                 "the next one; the "
+                 "densest reached is a volume fraction of {:.4g} of {:.4g} wanted; use fewer "
+                 "cells, a smaller overlap "
                  "distance or more attempts",
                  cells.size(), wanted, attempts, cells.size() * shape->volume / region_volume(),
                  wanted * shape->volume / region_volume());
@@ -252,7 +271,7 @@ void RBCCreate::create_atoms(const std::vector<Vertices> &cells)
   for (std::size_t c = 0; c < cells.size(); ++c)
     for (int v = 0; v < shape->size(); ++v) {
       double x[3] = {cells[c][v][0], cells[c][v][1], cells[c][v][2]};
-      imageint image = ((imageint) IMGMAX << IMG2BITS) | ((imageint) IMGMAX << IMGBITS) | IMGMAX;
+      imageint image = ((imageint)IMGMAX << IMG2BITS) | ((imageint)IMGMAX << IMGBITS) | IMGMAX;
       domain->remap(x, image);
       int place[3];
       if (comm->coord2proc(x, place[0], place[1], place[2]) != comm->me) continue;

@@ -12,20 +12,28 @@
 using namespace LAMMPS_NS;
 using rbc::Vec3;
 
-LocalCells::LocalCells(LAMMPS *lmp, const rbc::SurfaceTemplate &shape, int groupbit, std::string style) :
-    Pointers(lmp), shape(shape), groupbit(groupbit), style(std::move(style)), whole(rbc::CellElements::whole(shape))
+LocalCells::LocalCells(LAMMPS *lmp, const rbc::SurfaceTemplate &shape, int groupbit,
+                       std::string style) :
+    Pointers(lmp),
+    shape(shape), groupbit(groupbit), style(std::move(style)),
+    whole(rbc::CellElements::whole(shape))
 {
 }
 
 void LocalCells::find()
 {
-  if (!atom->molecule_flag || !atom->tag_enable) error->all(FLERR, "{} requires atoms with IDs and molecule IDs", style);
-  if (atom->map_style == Atom::MAP_NONE) error->all(FLERR, "{} requires an atom map, see atom_modify", style);
+  if (!atom->molecule_flag || !atom->tag_enable)
+    error->all(FLERR, "{} requires atoms with IDs and molecule IDs", style);
+  if (atom->map_style == Atom::MAP_NONE)
+    error->all(FLERR, "{} requires an atom map, see atom_modify", style);
 
   tagint largest = 0;
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & groupbit) largest = std::max(largest, atom->molecule[i]);
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_LMP_TAGINT, MPI_MAX, world);
+  if (largest > atom->natoms)
+    error->all(FLERR, "{}: molecule ID {} is larger than the number of atoms; use reset_atoms mol",
+               style, largest);
 
   // lowest and (negated) highest atom ID of each molecule in one reduction
   std::vector<tagint> extremes(2 * (largest + 1), MAXTAGINT);
@@ -37,22 +45,27 @@ void LocalCells::find()
     extremes[2 * m + 1] = std::min(extremes[2 * m + 1], -atom->tag[i]);
     ++count[m];
   }
-  MPI_Allreduce(MPI_IN_PLACE, extremes.data(), static_cast<int>(extremes.size()), MPI_LMP_TAGINT, MPI_MIN, world);
-  MPI_Allreduce(MPI_IN_PLACE, count.data(), static_cast<int>(count.size()), MPI_INT, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, extremes.data(), static_cast<int>(extremes.size()), MPI_LMP_TAGINT,
+                MPI_MIN, world);
+  MPI_Allreduce(MPI_IN_PLACE, count.data(), static_cast<int>(count.size()), MPI_INT, MPI_SUM,
+                world);
 
   molecule_ids.clear();
   first_ids.clear();
   index_of.clear();
-  if (count[0] > 0) error->all(FLERR, "{}: {} atoms of the group belong to no molecule", style, count[0]);
+  if (count[0] > 0)
+    error->all(FLERR, "{}: {} atoms of the group belong to no molecule", style, count[0]);
   for (tagint m = 1; m <= largest; ++m) {
     if (count[m] == 0) continue;
     const tagint first = extremes[2 * m], last = -extremes[2 * m + 1];
     if (count[m] != shape.size())
-      error->all(FLERR, "{}: the cell with molecule ID {} has {} atoms in the group, its template {}", style, m,
-                 count[m], shape.size());
+      error->all(FLERR,
+                 "{}: the cell with molecule ID {} has {} atoms in the group, its template {}",
+                 style, m, count[m], shape.size());
     if (last - first + 1 != shape.size())
-      error->all(FLERR, "{}: the atom IDs of the cell with molecule ID {} are not consecutive ({} to {})", style, m,
-                 first, last);
+      error->all(FLERR,
+                 "{}: the atom IDs of the cell with molecule ID {} are not consecutive ({} to {})",
+                 style, m, first, last);
     index_of[m] = static_cast<int>(molecule_ids.size());
     molecule_ids.push_back(m);
     first_ids.push_back(first);
@@ -82,8 +95,9 @@ void LocalCells::bind(bool bending)
     if (!(atom->mask[i] & groupbit)) continue;
     const auto found = index_of.find(atom->molecule[i]);
     if (found == index_of.end())
-      error->one(FLERR, "{}: atom {} belongs to molecule {}, which was not there at the start of the run", style,
-                 atom->tag[i], atom->molecule[i]);
+      error->one(FLERR,
+                 "{}: atom {} belongs to molecule {}, which was not there at the start of the run",
+                 style, atom->tag[i], atom->molecule[i]);
     const int index = found->second;
     if (slot[index] < 0) {
       slot[index] = static_cast<int>(local.size());
@@ -121,9 +135,11 @@ void LocalCells::bind(bool bending)
       for (int v : shape.triangles[t])
         if (atoms[at + v] < 0)
           error->one(FLERR,
-                     "{}: ghost cutoff {} is too short for the cell with molecule ID {}: a neighbour of its vertices is "
+                     "{}: ghost cutoff {} is too short for the cell with molecule ID {}: a "
+                     "neighbour of its vertices is "
                      "unknown; use comm_modify cutoff (at least {})",
-                     style, comm->get_comm_cutoff(), molecule_ids[local[c].index], (bending ? 3 : 2) * shape.longest_edge);
+                     style, comm->get_comm_cutoff(), molecule_ids[local[c].index],
+                     (bending ? 3 : 2) * shape.longest_edge);
   }
   find_shared(is_part);
   set_origins();
@@ -151,15 +167,17 @@ void LocalCells::check_complete(const std::vector<int> &owned_count) const
       s[0] += 1;
       for (int d = 0; d < 3; ++d) s[1 + d] += unwrapped[d];
     }
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
+                world);
   for (std::size_t n = 0; n < molecule_ids.size(); ++n) {
     const double *const s = &sums[4 * n];
     if (s[0] == shape.size()) continue;
     error->all(FLERR,
-               "{}: lost {:.0f} of {} vertices, which left the simulation box, at step {}: cell with molecule ID {} "
+               "{}: lost {:.0f} of {} vertices, which left the simulation box, at step {}: cell "
+               "with molecule ID {} "
                "near ({:.6g}, {:.6g}, {:.6g})",
-               style, shape.size() - s[0], shape.size(), update->ntimestep, molecule_ids[n], s[1] / s[0], s[2] / s[0],
-               s[3] / s[0]);
+               style, shape.size() - s[0], shape.size(), update->ntimestep, molecule_ids[n],
+               s[1] / s[0], s[2] / s[0], s[3] / s[0]);
   }
 }
 
@@ -167,7 +185,8 @@ void LocalCells::check_complete(const std::vector<int> &owned_count) const
    vertices of other ranks within some rings of the owned ones, each next to its neighbour
 ------------------------------------------------------------------------- */
 
-void LocalCells::place_neighbours(std::size_t at, tagint first, const std::vector<char> &owned, int rings)
+void LocalCells::place_neighbours(std::size_t at, tagint first, const std::vector<char> &owned,
+                                  int rings)
 {
   std::vector<int> front;
   for (int v = 0; v < shape.size(); ++v)
@@ -182,7 +201,8 @@ void LocalCells::place_neighbours(std::size_t at, tagint first, const std::vecto
         const double *from = atom->x[atoms[at + v]], *to = atom->x[j];
         for (int d = 0; d < 3; ++d) {
           const double near = from[d] + offsets[at + v][d] - to[d];
-          offsets[at + w][d] = domain->periodicity[d] ? std::round(near / domain->prd[d]) * domain->prd[d] : 0;
+          offsets[at + w][d] =
+              domain->periodicity[d] ? std::round(near / domain->prd[d]) * domain->prd[d] : 0;
         }
         atoms[at + w] = j;
         next.push_back(w);
@@ -204,13 +224,14 @@ void LocalCells::find_shared(const std::vector<char> &is_part)
   MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
   for (int r = 1; r < comm->nprocs; ++r) begins[r] = begins[r - 1] + counts[r - 1];
   shared.resize(begins.back() + counts.back());
-  MPI_Allgatherv(mine.data(), count, MPI_INT, shared.data(), counts.data(), begins.data(), MPI_INT, world);
+  MPI_Allgatherv(mine.data(), count, MPI_INT, shared.data(), counts.data(), begins.data(), MPI_INT,
+                 world);
   std::sort(shared.begin(), shared.end());
   shared.erase(std::unique(shared.begin(), shared.end()), shared.end());
   for (std::size_t c = 0; c < local.size(); ++c)
     if (is_part[c])
-      local[c].shared =
-          static_cast<int>(std::lower_bound(shared.begin(), shared.end(), local[c].index) - shared.begin());
+      local[c].shared = static_cast<int>(
+          std::lower_bound(shared.begin(), shared.end(), local[c].index) - shared.begin());
 }
 
 /* ----------------------------------------------------------------------
@@ -249,7 +270,8 @@ void LocalCells::sum_shared(std::vector<double> &values, int width)
   for (std::size_t c = 0; c < local.size(); ++c)
     if (local[c].shared >= 0)
       std::copy_n(&values[c * width], width, &buffer[std::size_t(local[c].shared) * width]);
-  MPI_Allreduce(MPI_IN_PLACE, buffer.data(), static_cast<int>(buffer.size()), MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(MPI_IN_PLACE, buffer.data(), static_cast<int>(buffer.size()), MPI_DOUBLE, MPI_SUM,
+                world);
   for (std::size_t c = 0; c < local.size(); ++c)
     if (local[c].shared >= 0)
       std::copy_n(&buffer[std::size_t(local[c].shared) * width], width, &values[c * width]);

@@ -16,12 +16,13 @@ class LocalCells : protected Pointers {
  public:
   /// One cell of which this rank owns a vertex.
   struct Cell {
-    int index;                          ///< among all cells
+    int index;    ///< among all cells
     const rbc::CellElements *elements;
-    const int *atom;                    ///< local index of each vertex, -1 where unknown
-    const rbc::Vec3 *offset;            ///< of each vertex, from LAMMPS's position to one near the cell's origin
-    rbc::Vec3 origin;                   ///< unwrapped position from which the cell's coordinates count
-    int shared;                         ///< number among the cells that several ranks share, -1 if this rank has it all
+    const int *atom;    ///< local index of each vertex, -1 where unknown
+    const rbc::Vec3
+        *offset;         ///< of each vertex, from LAMMPS's position to one near the cell's origin
+    rbc::Vec3 origin;    ///< unwrapped position from which the cell's coordinates count
+    int shared;    ///< number among the cells that several ranks share, -1 if this rank has it all
   };
 
   LocalCells(LAMMPS *lmp, const rbc::SurfaceTemplate &shape, int groupbit, std::string style);
@@ -56,7 +57,8 @@ class LocalCells : protected Pointers {
   std::vector<rbc::Vec3> offsets;
   rbc::CellElements whole;
   std::vector<rbc::CellElements> parts;
-  std::vector<int> shared;    ///< indices of the cells that several ranks share, the same on all ranks
+  std::vector<int>
+      shared;    ///< indices of the cells that several ranks share, the same on all ranks
   std::vector<double> buffer;
 
   void check_complete(const std::vector<int> &owned_count) const;

@@ -20,13 +20,15 @@ void require(bool condition, const std::string &problem)
 }
 
 /// Every directed edge with the triangle to its left.
-std::map<std::pair<int, int>, int> directed_edges(int vertices, const std::vector<Corners> &triangles)
+std::map<std::pair<int, int>, int> directed_edges(int vertices,
+                                                  const std::vector<Corners> &triangles)
 {
   std::map<std::pair<int, int>, int> left;
   for (int t = 0; t < static_cast<int>(triangles.size()); ++t)
     for (int e = 0; e < 3; ++e) {
       const int a = triangles[t][e], b = triangles[t][(e + 1) % 3];
-      require(a >= 0 && a < vertices, "triangle " + std::to_string(t + 1) + " names a vertex that does not exist");
+      require(a >= 0 && a < vertices,
+              "triangle " + std::to_string(t + 1) + " names a vertex that does not exist");
       require(a != b, "triangle " + std::to_string(t + 1) + " uses a vertex twice");
       require(left.emplace(std::make_pair(a, b), t).second,
               "edge " + std::to_string(a + 1) + "-" + std::to_string(b + 1) +
@@ -64,8 +66,8 @@ bool connected(const std::vector<std::vector<int>> &neighbours)
 }    // namespace
 
 SurfaceTemplate::SurfaceTemplate(std::vector<Vec3> vertices_in, std::vector<Corners> triangles_in) :
-    vertices(std::move(vertices_in)), triangles(std::move(triangles_in)), curvature(vertices.size()),
-    neighbours(vertices.size()), fans(vertices.size())
+    vertices(std::move(vertices_in)), triangles(std::move(triangles_in)),
+    curvature(vertices.size()), neighbours(vertices.size()), fans(vertices.size())
 {
   require(triangles.size() >= 4, "a closed surface needs at least 4 triangles");
   const auto left = directed_edges(size(), triangles);
@@ -76,10 +78,11 @@ SurfaceTemplate::SurfaceTemplate(std::vector<Vec3> vertices_in, std::vector<Corn
     const auto [a, b] = edge;
     const auto twin = left.find({b, a});
     require(twin != left.end(), "edge " + std::to_string(a + 1) + "-" + std::to_string(b + 1) +
-                " belongs to one triangle only: the surface is not closed");
+                                    " belongs to one triangle only: the surface is not closed");
     neighbours[a].push_back(b);
-    if (a < b) hinges.push_back({a, b, opposite(triangles[triangle], a, b), opposite(triangles[twin->second], a, b),
-                                 triangle, twin->second});
+    if (a < b)
+      hinges.push_back({a, b, opposite(triangles[triangle], a, b),
+                        opposite(triangles[twin->second], a, b), triangle, twin->second});
   }
   for (int v = 0; v < size(); ++v)
     require(!fans[v].empty(), "vertex " + std::to_string(v + 1) + " belongs to no triangle");
@@ -93,7 +96,8 @@ SurfaceTemplate::SurfaceTemplate(std::vector<Vec3> vertices_in, std::vector<Corn
       w = opposite(triangles[left.at({v, w})], v, w);
       ++around;
     } while (w != neighbours[v][0]);
-    require(around == fans[v].size(), "the surface touches itself at vertex " + std::to_string(v + 1));
+    require(around == fans[v].size(),
+            "the surface touches itself at vertex " + std::to_string(v + 1));
   }
 
   std::vector<Vec3> normals(triangles.size());
@@ -105,8 +109,8 @@ SurfaceTemplate::SurfaceTemplate(std::vector<Vec3> vertices_in, std::vector<Corn
     const double twice_area = cross.norm();
     require(twice_area > 0, "triangle " + std::to_string(t + 1) + " has no area");
     const double determinant = twice_area * twice_area;
-    reference.push_back({e2.squaredNorm() / determinant, -e1.dot(e2) / determinant, e1.squaredNorm() / determinant,
-                         twice_area / 2});
+    reference.push_back({e2.squaredNorm() / determinant, -e1.dot(e2) / determinant,
+                         e1.squaredNorm() / determinant, twice_area / 2});
     normals[t] = cross / twice_area;
     area += twice_area / 2;
     volume += vertices[i].dot(vertices[j].cross(vertices[k])) / 6;

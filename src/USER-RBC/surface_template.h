@@ -37,9 +37,9 @@ class SurfaceTemplate {
   std::vector<Corners> triangles;
   std::vector<Hinge> hinges;
   std::vector<ReferenceTriangle> reference;
-  std::vector<double> curvature;                ///< mean curvature of the stress-free shape at each vertex
-  std::vector<std::vector<int>> neighbours;     ///< vertices that share an edge
-  std::vector<std::vector<int>> fans;           ///< triangles around each vertex
+  std::vector<double> curvature;    ///< mean curvature of the stress-free shape at each vertex
+  std::vector<std::vector<int>> neighbours;    ///< vertices that share an edge
+  std::vector<std::vector<int>> fans;          ///< triangles around each vertex
   double area = 0, volume = 0;
   double longest_edge = 0, mean_edge = 0;
 };
