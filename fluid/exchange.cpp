@@ -8,6 +8,15 @@ namespace {
 
 constexpr int tag = 0;
 
+MPI_Datatype mpi_type(double)
+{
+  return MPI_DOUBLE;
+}
+MPI_Datatype mpi_type(std::complex<double>)
+{
+  return MPI_C_DOUBLE_COMPLEX;
+}
+
 template <typename T, typename Row> void for_each_row(const View<T> &view, const Box &box, Row row)
 {
   for (int k = box.lo[2]; k < box.hi[2]; ++k)
@@ -98,8 +107,8 @@ void Exchange<T>::run(const View<T> *from, const View<T> *to, int components, co
   MPI_Request *request = requests_.data();
   T *arriving = incoming_.data();
   for (const Peer &peer : in.peers) {
-    const int bytes = static_cast<int>(components * peer.size * sizeof(T));
-    MPI_Irecv(arriving, bytes, MPI_BYTE, peer.rank, tag, comm_, request++);
+    const int count = static_cast<int>(components * peer.size);
+    MPI_Irecv(arriving, count, mpi_type(T{}), peer.rank, tag, comm_, request++);
     arriving += components * peer.size;
   }
 
@@ -108,10 +117,10 @@ void Exchange<T>::run(const View<T> *from, const View<T> *to, int components, co
     T *begin = leaving;
     for (int c = 0; c < components; ++c)
       for (const Box &box : peer.boxes) leaving = pack(from[c], box, leaving);
-    const int bytes = static_cast<int>((leaving - begin) * sizeof(T));
-    MPI_Isend(begin, bytes, MPI_BYTE, peer.rank, tag, comm_, request++);
+    const std::ptrdiff_t count = leaving - begin;
+    MPI_Isend(begin, static_cast<int>(count), mpi_type(T{}), peer.rank, tag, comm_, request++);
     ++traffic_.messages;
-    traffic_.bytes += bytes;
+    traffic_.bytes += static_cast<long>(count * sizeof(T));
   }
 
   for (std::size_t n = 0; n < out.self.size(); ++n)

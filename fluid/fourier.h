@@ -27,6 +27,9 @@ class Plan {
 /// live on the decomposition's bricks, modes on `modes()`: a box of (kx, ky) with all of z.
 class Fourier {
  public:
+  Fourier(const Fourier &) = delete;
+  Fourier &operator=(const Fourier &) = delete;
+
   /// `storage` is the box over which the value arrays are stored (the brick with its ghost layers).
   Fourier(const Grid &grid, const Decomposition &decomposition, const Box &storage);
 

@@ -60,7 +60,7 @@ void ComputeRBCCell::init()
 
   molecules.clear();
   for (FixRBCMembrane *fix : membranes) {
-    fix->local_cells().find();
+    fix->local_cells().find();    // the fix itself may be initialised after this compute
     const auto &ids = fix->local_cells().molecules();
     molecules.insert(molecules.end(), ids.begin(), ids.end());
   }

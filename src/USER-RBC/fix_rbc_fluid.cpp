@@ -1,5 +1,7 @@
 #include "fix_rbc_fluid.h"
 
+#include "fix_rbc_ib.h"
+
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -10,12 +12,16 @@
 #include "neighbor.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
 static constexpr int MIN_CELLS = 4;
+static constexpr double MAX_CELLS =
+    0.25 * MAXSMALLINT;    // on a rank: a message counts three values of each in an int
 static constexpr int KERNEL_LAYERS =
     3;    // reach of the widest kernel beyond a subdomain, staggering included
 
@@ -147,6 +153,8 @@ void FixRBCFluid::parse(int narg, char **arg)
                  keyword);
   }
 
+  for (const auto *vector : {&lower, &upper, &body})
+    for (const NumberOrVariable &component : *vector) varying = varying || component.is_variable();
   walls = !domain->zperiodic;
   if (walls && !(wall_given[0] && wall_given[1]))
     error->all(FLERR, "Fix rbc/fluid needs wall zlo and wall zhi where z is not periodic");
@@ -173,11 +181,12 @@ void FixRBCFluid::choose_grid()
   if (target_spacing == 0) return;
   for (int d = 0; d < 3; ++d) {
     const double wanted = std::round(domain->prd[d] / target_spacing);
+    const double largest = domain->prd[d] / MIN_CELLS;
     if (wanted < MIN_CELLS)
       error->all(
           FLERR,
           "Fix rbc/fluid dx {} leaves {} cells in {}; at least {} are needed (dx at most {})",
-          target_spacing, wanted, "xyz"[d], MIN_CELLS, domain -> prd[d] / MIN_CELLS);
+          target_spacing, wanted, "xyz"[d], MIN_CELLS, largest);
     cells[d] = static_cast<int>(std::min<double>(wanted, MAXSMALLINT));
   }
 }
@@ -189,14 +198,14 @@ void FixRBCFluid::choose_grid()
 void FixRBCFluid::check_grid() const
 {
   const double each = double(cells[0]) * cells[1] * cells[2] / comm->nprocs;
-  if (each > 0.5 * MAXSMALLINT)
+  if (each > MAX_CELLS)
     error->all(
         FLERR,
         "Fix rbc/fluid {} {} asks for {:.3g} cells per MPI task; at most {:.3g} are possible",
         target_spacing > 0 ? "dx" : "grid",
         target_spacing > 0 ? fmt::format("{}", target_spacing)
                            : fmt::format("{} {} {}", cells[0], cells[1], cells[2]),
-        each, 0.5 * MAXSMALLINT);
+        each, MAX_CELLS);
 }
 
 /* ----------------------------------------------------------------------
@@ -215,6 +224,11 @@ int FixRBCFluid::layers_needed() const
 
 void FixRBCFluid::build_flow()
 {
+  fluid::Drive drive;
+  if (stokes_flow) {
+    measure();
+    drive = stokes_flow->drive;
+  }
   free_data();
   grid = std::make_unique<Grid3d>(lmp, world, cells[0], cells[1], cells[2]);
   int lo[3], hi[3], outlo[3], outhi[3];
@@ -235,7 +249,7 @@ void FixRBCFluid::build_flow()
   ghost_layers = layers_needed();
   stokes_flow = std::make_unique<fluid::Flow>(staggered, fluid::Decomposition(world, brick),
                                               ghost_layers, viscosity);
-  measured_solves = -1;
+  stokes_flow->drive = drive;
   current = false;
 }
 
@@ -263,36 +277,30 @@ void FixRBCFluid::init()
   for (const auto *vector : {&lower, &upper, &body})
     for (const auto &component : *vector) component.check(lmp, "fix rbc/fluid");
 
-  if (!driver.empty() && !modify->get_fix_by_id(driver)) driver.clear();
+  std::string driver;
+  for (Fix *fix : modify->get_fix_by_style("^rbc/ib$")) {
+    if (dynamic_cast<FixRBCIB *>(fix)->fluid() != id) continue;
+    if (!driver.empty())
+      error->all(FLERR, "Fix rbc/fluid {} cannot be used by both fix rbc/ib {} and {}", id, driver,
+                 fix->id);
+    driver = fix->id;
+  }
+  driven = !driver.empty();
   if (layers_needed() != ghost_layers) build_flow();
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixRBCFluid::attach(const std::string &fix_id)
-{
-  if (!driver.empty() && driver != fix_id && modify->get_fix_by_id(driver))
-    error->all(FLERR, "Fix rbc/ib {} cannot use fix rbc/fluid {}: fix rbc/ib {} already does",
-               fix_id, id, driver);
-  driver = fix_id;
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixRBCFluid::setup(int /*vflag*/)
 {
-  if (driver.empty()) solve_alone();
+  if (!driven) solve_alone();
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixRBCFluid::final_integrate()
 {
-  if (!driver.empty()) return;
-  if (!current) return solve_alone();
-  for (const auto *vector : {&lower, &upper, &body})
-    for (const auto &component : *vector)
-      if (component.is_variable()) return solve_alone();
+  if (!driven && (varying || !current)) solve_alone();
 }
 
 /* ----------------------------------------------------------------------
@@ -314,6 +322,8 @@ void FixRBCFluid::solve_alone()
 
 void FixRBCFluid::update_drive(bool middle)
 {
+  if (!varying && drive_known) return;
+  drive_known = true;
   modify->clearstep_compute();
   fluid::Drive now;
   for (int d = 0; d < 3; ++d) {

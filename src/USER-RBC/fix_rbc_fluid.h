@@ -36,7 +36,6 @@ class FixRBCFluid : public Fix {
 
   // used by fix rbc/ib, which drives the flow
 
-  void attach(const std::string &fix_id);
   fluid::Flow &flow() { return *stokes_flow; }
   void update_drive(bool middle);
   void solved()
@@ -60,7 +59,9 @@ class FixRBCFluid : public Fix {
   std::unique_ptr<class Grid3d> grid;
   std::unique_ptr<fluid::Flow> stokes_flow;
   int ghost_layers = -1;
-  std::string driver;    // ID of the fix rbc/ib that drives the flow, empty if there is none
+  bool driven = false;     // by a fix rbc/ib
+  bool varying = false;    // a variable drives the flow
+  bool drive_known = false;
   bigint nsolves = 0;
   bool current = false;    // the flow has been solved on this decomposition
 

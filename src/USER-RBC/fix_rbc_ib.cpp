@@ -17,6 +17,7 @@
 #include "update.h"
 
 #include <cmath>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -74,7 +75,6 @@ void FixRBCIB::init()
   fluid_fix = dynamic_cast<FixRBCFluid *>(modify->get_fix_by_id(fluid_id));
   if (!fluid_fix)
     error->all(FLERR, "Fix rbc/ib {}: there is no fix rbc/fluid with ID {}", id, fluid_id);
-  fluid_fix->attach(id);
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix rbc/ib cannot be used with run_style respa");
   if (update->whichflag == 2) error->all(FLERR, "Fix rbc/ib cannot be used with minimize");
@@ -132,7 +132,8 @@ void FixRBCIB::post_neighbor()
 
 void FixRBCIB::setup(int /*vflag*/)
 {
-  update_velocities(true);
+  fluid_fix->update_drive(false);
+  update_velocities(Stage::START);
   for (rbc::Stopwatch *watch : {&spreading, &solving, &interpolating, &exchanging}) watch->reset();
   for (FixRBCMembrane *membrane : membranes) membrane->stopwatch.reset();
   first_solve = fluid_fix->solves();
@@ -145,7 +146,7 @@ void FixRBCIB::setup(int /*vflag*/)
 
 void FixRBCIB::initial_integrate(int /*vflag*/)
 {
-  if (late_forces && update->ntimestep == first_step + 1) update_velocities(true, false);
+  if (late_forces && update->ntimestep == first_step + 1) update_velocities(Stage::START);
 
   double *const x = members.empty() ? nullptr : atom->x[0];
   const double dt = update->dt;
@@ -162,11 +163,13 @@ void FixRBCIB::initial_integrate(int /*vflag*/)
     for (int d = 0; d < 3; ++d) start_of_step[3 * n + d] = x[3 * members[n] + d];
   if (integrator == Integrator::MIDPOINT) {
     move(0.5 * dt);
+    check_positions();
+    fluid_fix->update_drive(true);
     exchanging.start();
     comm->forward_comm();
     exchanging.stop();
     recompute_forces();
-    update_velocities(false);
+    update_velocities(Stage::MIDDLE);
   }
   move(dt);
   check_positions();
@@ -176,7 +179,8 @@ void FixRBCIB::initial_integrate(int /*vflag*/)
 
 void FixRBCIB::final_integrate()
 {
-  update_velocities(true);
+  fluid_fix->update_drive(false);
+  update_velocities(Stage::START);
 }
 
 /* ----------------------------------------------------------------------
@@ -207,7 +211,7 @@ void FixRBCIB::recompute_forces()
    forces -> spread -> solve -> interpolate -> velocities
 ------------------------------------------------------------------------- */
 
-void FixRBCIB::update_velocities(bool new_step, bool new_drive)
+void FixRBCIB::update_velocities(Stage stage)
 {
   fluid::Flow &flow = fluid_fix->flow();
   const fluid::Markers markers{static_cast<int>(members.size()), members.data()};
@@ -219,9 +223,7 @@ void FixRBCIB::update_velocities(bool new_step, bool new_drive)
   flow.clear_force();
   const int outside = flow.spread(kernel, markers, x, f, force->ftm2v);
   if (outside >= 0)
-    stop(
-        outside,
-        "left the part of the fluid its MPI task holds (reneighboring too rare, see neigh_modify)");
+    stop(outside, "left the fluid its MPI task holds (reneighboring too rare, see neigh_modify)");
   spreading.stop();
 
   exchanging.start();
@@ -229,7 +231,6 @@ void FixRBCIB::update_velocities(bool new_step, bool new_drive)
   exchanging.stop();
 
   solving.start();
-  if (new_drive) fluid_fix->update_drive(!new_step);
   flow.solve();
   fluid_fix->solved();
   solving.stop();
@@ -242,7 +243,7 @@ void FixRBCIB::update_velocities(bool new_step, bool new_drive)
   flow.interpolate(kernel, markers, x, v);
   interpolating.stop();
 
-  for (FixRBCMembrane *membrane : keepers) membrane->keep_volume(update->dt, new_step);
+  for (FixRBCMembrane *membrane : keepers) membrane->keep_volume(update->dt, stage == Stage::START);
   check_velocities();
 }
 

@@ -29,6 +29,8 @@ class FixRBCIB : public Fix {
   void post_run() override;
   double memory_usage() override;
 
+  const std::string &fluid() const { return fluid_id; }    // ID of the fix rbc/fluid it drives
+
  private:
   enum class Integrator { EULER, MIDPOINT };
 
@@ -46,7 +48,9 @@ class FixRBCIB : public Fix {
   bool late_forces =
       false;    // a fix defined after this one adds forces, which setup() does not see
 
-  void update_velocities(bool new_step, bool new_drive = true);
+  enum class Stage { START, MIDDLE };
+
+  void update_velocities(Stage);
   void recompute_forces();
   void check_moves_all(const Fix *) const;
   void check_positions() const;

@@ -10,6 +10,7 @@
 #include "update.h"
 
 #include <cmath>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -31,8 +32,7 @@ FixRBCMembrane::FixRBCMembrane(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, nar
   virial_global_flag = 1;
 
   if (narg < 5) utils::missing_cmd_args(FLERR, "fix rbc/membrane", error);
-  template_id = arg[3];
-  surface = make_cell_template(lmp, template_id, "fix rbc/membrane");
+  surface = make_cell_template(lmp, arg[3], "fix rbc/membrane");
   model = std::make_unique<rbc::MembraneModel>(*surface, parse(narg, arg));
   cells =
       std::make_unique<LocalCells>(lmp, *surface, groupbit, fmt::format("Fix rbc/membrane {}", id));
@@ -182,7 +182,7 @@ void FixRBCMembrane::post_neighbor()
   const std::size_t count = cells->cells().size();
   sizes.resize(2 * count);
   volume_rates.resize(count);
-  volume_gradient.resize(volume_kept ? count * surface->size() : surface->size());
+  volume_gradient.resize(volume_kept ? count * surface->size() : 0);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -260,7 +260,7 @@ void FixRBCMembrane::add_forces()
    subtracts from the velocities the part along the volume gradient, so that
      sum_i dV/dx_i . v_i = (V_template - V) / (VOLUME_STEPS dt)
    the gradients of a closed surface sum to zero and exert no torque: neither the cell's velocity nor its rotation
-   changes. A predictor stage (new_step) sets the rate that the stages after it keep.
+   changes. The evaluation at the start of a step (new_step) sets the rate that the stages after it keep.
 ------------------------------------------------------------------------- */
 
 void FixRBCMembrane::keep_volume(double dt, bool new_step)

@@ -43,7 +43,6 @@ class FixRBCMembrane : public Fix {
   rbc::Stopwatch stopwatch;
 
  private:
-  std::string template_id;
   std::unique_ptr<rbc::SurfaceTemplate> surface;
   std::unique_ptr<rbc::MembraneModel> model;
   std::unique_ptr<LocalCells> cells;

@@ -8,8 +8,10 @@
 
 using namespace LAMMPS_NS;
 
-Molecule *LAMMPS_NS::find_cell_molecule(LAMMPS *lmp, const std::string &id,
-                                        const std::string &style)
+namespace {
+
+/// The molecule template of that ID; an error naming `style` if there is none.
+Molecule *find_cell_molecule(LAMMPS *lmp, const std::string &id, const std::string &style)
 {
   const int index = lmp->atom->find_molecule(id.c_str());
   if (index < 0) lmp->error->all(FLERR, "Molecule template ID {} for {} does not exist", id, style);
@@ -24,6 +26,8 @@ Molecule *LAMMPS_NS::find_cell_molecule(LAMMPS *lmp, const std::string &id,
                     style);
   return molecule;
 }
+
+}    // namespace
 
 std::unique_ptr<rbc::SurfaceTemplate>
 LAMMPS_NS::make_cell_template(LAMMPS *lmp, const std::string &id, const std::string &style)

@@ -8,10 +8,6 @@
 
 namespace LAMMPS_NS {
 class LAMMPS;
-class Molecule;
-
-/// The molecule template of that ID; an error naming `style` if there is none.
-Molecule *find_cell_molecule(LAMMPS *lmp, const std::string &id, const std::string &style);
 
 /// Coords and Angles of a molecule template as a closed oriented surface; an error naming `style` if they are not one.
 std::unique_ptr<rbc::SurfaceTemplate> make_cell_template(LAMMPS *lmp, const std::string &id,

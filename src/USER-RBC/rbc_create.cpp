@@ -45,14 +45,14 @@ void RBCCreate::command(int narg, char **arg)
   if (single) {
     cells.emplace_back();
     for (const Vec3 &vertex : shape->vertices) cells[0].push_back(centre + rotation * vertex);
+    const double *lower = domain->boxlo, *upper = domain->boxhi;
     for (const Vec3 &vertex : cells[0])
       for (int d = 0; d < 3; ++d)
-        if (!domain->periodicity[d] &&
-            (vertex[d] <= domain->boxlo[d] || vertex[d] >= domain->boxhi[d]))
+        if (!domain->periodicity[d] && (vertex[d] <= lower[d] || vertex[d] >= upper[d]))
           error->all(FLERR,
                      "Rbc/create single: a vertex at {} {:.6g} lies outside the simulation box, "
                      "{:.6g} to {:.6g}",
-                     "xyz"[d], vertex[d], domain -> boxlo[d], domain -> boxhi[d]);
+                     "xyz"[d], vertex[d], lower[d], upper[d]);
   } else
     cells = place_randomly();
   create_atoms(cells);
@@ -151,6 +151,7 @@ void RBCCreate::parse(int narg, char **arg)
   if (!single && !seeded) error->all(FLERR, "Rbc/create number and hematocrit need a seed");
   if (single && region) error->all(FLERR, "Rbc/create single takes no region");
   if (gap < 0) gap = shape->mean_edge;
+  check_images();
   if (type == 0) type = 1;
   set_extent();
   if (hematocrit > 0) {
@@ -159,6 +160,22 @@ void RBCCreate::parse(int narg, char **arg)
       error->all(FLERR, "Rbc/create hematocrit {} is less than one cell in the volume of {:.6g}",
                  hematocrit, region_volume());
   }
+}
+
+/* ----------------------------------------------------------------------
+   a cell must not reach its own periodic images
+------------------------------------------------------------------------- */
+
+void RBCCreate::check_images() const
+{
+  double radius = 0;
+  for (const Vec3 &vertex : shape->vertices) radius = std::max(radius, vertex.norm());
+  for (int d = 0; d < 3; ++d)
+    if (domain->periodicity[d] && domain->prd[d] < 2 * radius + gap)
+      error->all(
+          FLERR,
+          "Rbc/create: the periodic box is {:.6g} long in {}; cells of {} need at least {:.6g}",
+          domain->prd[d], "xyz"[d], template_id, 2 * radius + gap);
 }
 
 /* ----------------------------------------------------------------------

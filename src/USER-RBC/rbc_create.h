@@ -41,6 +41,7 @@ class RBCCreate : public Command {
 
   void parse(int, char **);
   std::vector<Vertices> place_randomly();
+  void check_images() const;
   void set_extent();
   double region_volume() const;
   void create_atoms(const std::vector<Vertices> &);

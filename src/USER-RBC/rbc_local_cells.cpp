@@ -32,7 +32,8 @@ void LocalCells::find()
     if (atom->mask[i] & groupbit) largest = std::max(largest, atom->molecule[i]);
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_LMP_TAGINT, MPI_MAX, world);
   if (largest > atom->natoms)
-    error->all(FLERR, "{}: molecule ID {} is larger than the number of atoms; use reset_atoms mol",
+    error->all(FLERR,
+               "{}: molecule ID {} is larger than the number of atoms; renumber with set mol",
                style, largest);
 
   // lowest and (negated) highest atom ID of each molecule in one reduction

@@ -36,7 +36,6 @@ class LocalCells : protected Pointers {
 
   const std::vector<tagint> &molecules() const { return molecule_ids; }
   const std::vector<Cell> &cells() const { return local; }
-  int shared_cells() const { return static_cast<int>(shared.size()); }
 
   /// Positions of the cell's vertices from its origin.
   void gather(const Cell &cell, std::vector<rbc::Vec3> &x) const;
