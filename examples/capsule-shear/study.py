@@ -193,8 +193,10 @@ def plot(rows, path):
             line, = left.plot(t, d, label=f"Ca = {row['Ca']}")
             for source, (rt, rd) in references(float(row["Ca"])).items():
                 left.plot(rt, rd, markers.get(source, "."), color=line.get_color(), mfc="none", ms=5)
-    left.set(xlabel="shear rate × time", ylabel="Taylor deformation D", xlim=(0, 5), ylim=(0, 0.6))
-    left.legend(title="lines: USER-RBC\nmarkers: references", fontsize=8)
+    left.set(xlabel="shear rate × time", ylabel="Taylor deformation D", xlim=(0, 5), ylim=(0, 0.75))
+    for source, marker in markers.items():
+        left.plot([], [], marker, color="0.4", mfc="none", ms=5, label=source)
+    left.legend(fontsize=7, ncol=2, loc="upper left")
     for kernel, marker in (("peskin4", "o"), ("roma3", "s")):
         points = [(float(r["dx"]), float(r["D_end"]) / float(r["Ca"])) for r in rows.values()
                   if r["series"] == "slope" and r["kernel"] == kernel]

@@ -20,18 +20,21 @@ sys.path.insert(0, SCRIPTS)
 from membrane_motion import angles, read_dump  # noqa: E402
 from read_ave_time import read_ave_time  # noqa: E402
 
-SNAPSHOTS = 4
+SNAPSHOTS = 5
+TUMBLE = 9.5  # strain of one tumble at 100 /s in plasma
 
 
-def snapshots(folder):
-    """(step, image) of surfaces spread evenly over the run, seen along the vorticity."""
+def snapshots(folder, strain):
+    """(step, image) of surfaces over one tumble in the middle of the run, seen along the vorticity."""
     step = lambda name: int(re.search(r"cells\.(\d+)\.", name).group(1))  # noqa: E731
     files = sorted(glob.glob(os.path.join(folder, "cells.*.vtp")), key=step)
-    files = [files[i] for i in np.unique(np.linspace(0, len(files) - 1, SNAPSHOTS).round().astype(int))]
+    strains = np.array([step(name) for name in files]) * strain
+    wanted = strains[-1] / 2 + np.linspace(0, min(TUMBLE, strains[-1] / 2), SNAPSHOTS)
+    files = [files[i] for i in np.unique(np.abs(strains[:, None] - wanted).argmin(axis=0))]
     for name in files:
         png = name[:-4] + ".png"
         subprocess.run([os.path.join(SCRIPTS, "render_cells.py"), name, "-o", png, "--box", "0", "24", "0", "24",
-                        "0", "24", "--view", "10", "8", "--zoom", "1.9", "--size", "640x480"], check=True)
+                        "0", "24", "--view", "10", "8", "--zoom", "2.4", "--size", "480x360"], check=True)
         yield step(name), plt.imread(png)
 
 
@@ -43,19 +46,19 @@ def main():
     steps, positions = read_dump(os.path.join(folder, "vertices.dump"))
     shape, membrane = np.degrees(angles(positions))
 
-    figure = plt.figure(figsize=(12, 6.6))
-    grid = figure.add_gridspec(2, SNAPSHOTS, height_ratios=(1.15, 1))
-    deformation = figure.add_subplot(grid[0, :SNAPSHOTS // 2])
+    figure = plt.figure(figsize=(12, 5.6))
+    grid = figure.add_gridspec(2, 2 * SNAPSHOTS, height_ratios=(1.5, 1))
+    deformation = figure.add_subplot(grid[0, :SNAPSHOTS])
     deformation.plot(history.steps * strain, history.column(7)[:, 0], color="#b3202a")
     deformation.set(xlabel="strain (shear rate × time)", ylabel="Taylor deformation D", ylim=(0, None),
                     title=f"healthy red cell at {rate:g} /s, {viscosity:.3g} mPa s")
-    turning = figure.add_subplot(grid[0, SNAPSHOTS // 2:])
-    turning.plot(steps * strain, shape, label="shape (long axis)")
-    turning.plot(steps * strain, membrane + shape[0], "--", label="membrane")
-    turning.set(xlabel="strain", ylabel="angle to the flow / degrees")
+    turning = figure.add_subplot(grid[0, SNAPSHOTS:])
+    turning.plot(steps * strain, (shape - shape[0]) / 180, label="shape (long axis)")
+    turning.plot(steps * strain, membrane / 180, "--", label="membrane")
+    turning.set(xlabel="strain", ylabel="half turns since the start")
     turning.legend(frameon=False)
-    for n, (step, image) in enumerate(snapshots(folder)):
-        panel = figure.add_subplot(grid[1, n])
+    for n, (step, image) in enumerate(snapshots(folder, strain)):
+        panel = figure.add_subplot(grid[1, 2 * n:2 * n + 2])
         panel.imshow(image)
         panel.set_axis_off()
         panel.set_title(f"strain {step * strain:.0f}", fontsize=10)
