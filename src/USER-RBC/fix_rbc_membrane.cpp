@@ -211,7 +211,7 @@ void FixRBCMembrane::measure_cells()
   const auto &local = cells->cells();
   for (std::size_t c = 0; c < local.size(); ++c) {
     cells->gather(local[c], x);
-    const rbc::CellSize share = model->measure(*local[c].elements, x, f);
+    const rbc::CellSize share = model->measure(*local[c].elements, x);
     sizes[2 * c] = share.area;
     sizes[2 * c + 1] = share.volume;
     const int inverted = model->find_inverted(*local[c].elements, x);
@@ -273,10 +273,8 @@ void FixRBCMembrane::keep_volume(double dt, bool new_step)
   for (std::size_t c = 0; c < local.size(); ++c) {
     const LocalCells::Cell &cell = local[c];
     cells->gather(cell, x);
-    f.swap(x);
-    const rbc::CellSize share = model->measure(*cell.elements, f, x);
     Vec3 *const gradient = &volume_gradient[c * size];
-    std::copy(x.begin(), x.end(), gradient);
+    const rbc::CellSize share = model->measure(*cell.elements, x, gradient);
     for (int i = 0; i < size; ++i) {
       if (!cell.elements->owned[i]) continue;
       sums[3 * c] += gradient[i].dot(Vec3(v[cell.atom[i]]));

@@ -50,9 +50,8 @@ class FixRBCMembrane : public Fix {
   double ghost_cutoff = 0;    // that this fix asked for
 
   std::vector<rbc::Vec3> x, f;
-  std::vector<rbc::Vec3>
-      volume_gradient;          // of the vertices of all cells here, kept for keep_volume()
-  std::vector<double> sizes;    // area and volume of each cell here
+  std::vector<rbc::Vec3> volume_gradient;    // of the vertices of all cells here, see keep_volume()
+  std::vector<double> sizes;                 // area and volume of each cell here
   std::vector<double> volume_rates, sums;
   rbc::MembraneEnergy energy, energy_all;
   bigint energy_step = -1;

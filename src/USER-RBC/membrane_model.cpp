@@ -48,14 +48,15 @@ MembraneModel::MembraneModel(const SurfaceTemplate &shape, const MembraneParamet
 }
 
 CellSize MembraneModel::measure(const CellElements &elements, const std::vector<Vec3> &x,
-                                std::vector<Vec3> &volume_gradient) const
+                                Vec3 *volume_gradient) const
 {
-  std::fill(volume_gradient.begin(), volume_gradient.end(), Vec3::Zero());
+  if (volume_gradient) std::fill_n(volume_gradient, shape_.size(), Vec3::Zero());
   CellSize share;
   for (int t : elements.triangles) {
     const auto &[i, j, k] = shape_.triangles[t];
     const Vec3 twice_area = (x[j] - x[i]).cross(x[k] - x[i]);
-    for (int v : {i, j, k}) volume_gradient[v] += twice_area / 6;
+    if (volume_gradient)
+      for (int v : {i, j, k}) volume_gradient[v] += twice_area / 6;
     if (!elements.owned[i]) continue;
     share.area += twice_area.norm() / 2;
     share.volume += x[i].dot(twice_area) / 6;

@@ -56,9 +56,10 @@ class MembraneModel {
   /// Whether forces() needs the size of the whole cell.
   bool needs_size() const { return parameters_.global_area > 0 || parameters_.volume > 0; }
 
-  /// This rank's share of the size, and dV/dx of every vertex whose triangles are all in `elements`.
+  /// This rank's share of the size. Where `volume_gradient` is given (an entry for each vertex of the
+  /// template), dV/dx of every vertex whose triangles are all in `elements` is written there.
   CellSize measure(const CellElements &elements, const std::vector<Vec3> &x,
-                   std::vector<Vec3> &volume_gradient) const;
+                   Vec3 *volume_gradient = nullptr) const;
 
   /// Forces on the vertices owned (others are left undefined) and this rank's share of the energy. `size` is that of
   /// the whole cell. Positions must be relative to a nearby origin.

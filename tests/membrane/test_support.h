@@ -248,7 +248,7 @@ inline Result evaluate(rbc::MembraneModel &model, const rbc::SurfaceTemplate &sh
   Result result;
   result.force.resize(x.size());
   result.volume_gradient.resize(x.size());
-  result.size = model.measure(all, x, result.volume_gradient);
+  result.size = model.measure(all, x, result.volume_gradient.data());
   result.energy = model.forces(all, x, result.size, result.force);
   return result;
 }
