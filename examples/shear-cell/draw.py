@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Picture of a run of in.shear-cell: D and angles against strain, above snapshots of the cell.
+"""Picture of a run of in.shear-cell: D and angles against strain, above snapshots of the cell. Prints the
+ranges of D (after a strain of 5), of the area, and the largest error of the volume.
 
     draw.py FOLDER        where cell.dat, vertices.dump, scene.dat and cells.*.vtp are; writes shear-cell.png
 """
@@ -46,10 +47,16 @@ def main():
     steps, positions = read_dump(os.path.join(folder, "vertices.dump"))
     shape, membrane = np.degrees(angles(positions))
 
+    deformations, areas, volumes = (history.column(n)[:, 0] for n in (7, 5, 6))
+    late = deformations[history.steps * strain >= 5]
+    if late.size:
+        print(f"D {late.min():.3f} to {late.max():.3f}, area {areas.min():.1f} to {areas.max():.1f} um^2, "
+              f"volume within {np.abs(volumes / volumes[0] - 1).max():.1e}")
+
     figure = plt.figure(figsize=(12, 5.6))
     grid = figure.add_gridspec(2, 2 * SNAPSHOTS, height_ratios=(1.5, 1))
     deformation = figure.add_subplot(grid[0, :SNAPSHOTS])
-    deformation.plot(history.steps * strain, history.column(7)[:, 0], color="#b3202a")
+    deformation.plot(history.steps * strain, deformations, color="#b3202a")
     deformation.set(xlabel="strain (shear rate × time)", ylabel="Taylor deformation D", ylim=(0, None),
                     title=f"healthy red cell at {rate:g} /s, {viscosity:.3g} mPa s")
     turning = figure.add_subplot(grid[0, SNAPSHOTS:])

@@ -90,9 +90,10 @@ void FixRBCIB::init()
     if (!membrane) continue;
     if (!before)
       error->all(FLERR, "Fix rbc/ib {} must be defined after fix rbc/membrane {}", id, fix->id);
-    if (membrane->keeps_volume()) check_moves_all(fix);
     membranes.push_back(membrane);
-    if (membrane->keeps_volume()) keepers.push_back(membrane);
+    if (!membrane->keeps_volume()) continue;
+    check_moves_all(fix);
+    keepers.push_back(membrane);
   }
 }
 
