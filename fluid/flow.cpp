@@ -26,7 +26,7 @@ Flow::Flow(const Grid &grid, const Decomposition &decomposition, int ghost_layer
     grid_(grid),
     decomposition_(decomposition), viscosity_(viscosity), halo_(grid, decomposition, ghost_layers),
     force_(halo_.box()), velocity_(halo_.box()),
-    solver_(grid, decomposition, halo_.box(), viscosity, 0.0, drive)
+    solver_(grid, decomposition, halo_.box(), viscosity, 0.0, true)
 {
 }
 
@@ -50,7 +50,7 @@ void Flow::gather_force()
 
 void Flow::solve()
 {
-  solver_.velocity(force_, velocity_);
+  solver_.velocity(force_, drive, velocity_);
 }
 
 void Flow::share_velocity()
@@ -68,7 +68,7 @@ void Flow::interpolate(KernelKind kernel, const Markers &markers, const double *
 const ScalarField &Flow::pressure()
 {
   if (!pressure_.bytes()) pressure_ = ScalarField(halo_.box());
-  solver_.pressure(force_, pressure_);
+  solver_.pressure(force_, drive, pressure_);
   return pressure_;
 }
 

@@ -12,10 +12,11 @@ struct Walls {
   Vec3 upper{0, 0, 0};
 };
 
-/// What drives the mean flow; a uniform body force density acts on it alone.
+/// What drives the mean flow.
 struct Drive {
   Walls walls;
-  Vec3 body{0, 0, 0};
+  Vec3 body{0, 0, 0};    ///< uniform force density
+  Vec3 mean{0, 0, 0};    ///< mean velocity, where it is held
 };
 
 /// Solves the discrete problem (shift - viscosity lap) u + grad p = f, div u = 0 on the staggered grid,
@@ -26,17 +27,19 @@ class ModeSolver {
 
   /// Replaces the modes of the force density in `spectrum` by those of the velocity, normalised for the
   /// unnormalised backward transform. Where `pressure` is given its modes are written too.
-  virtual void solve(const std::array<View<Complex>, 3> &spectrum,
+  virtual void solve(const std::array<View<Complex>, 3> &spectrum, const Drive &drive,
                      const View<Complex> *pressure) = 0;
+
+  virtual void set_shift(double shift) = 0;
 };
 
-/// Triply periodic. The mean force is balanced by a uniform pressure gradient and the mean velocity stays
-/// zero where shift is zero (Stokes); otherwise the mean obeys shift <u> = <f>.
+/// Triply periodic. Where the mean velocity is held it is that of the drive, and a uniform pressure gradient
+/// balances the mean force; otherwise the mean obeys shift <u> = <f> + body.
 std::unique_ptr<ModeSolver> make_periodic_modes(const Grid &grid, const Box &modes,
-                                                double viscosity, double shift);
+                                                double viscosity, double shift, bool hold_mean);
 
-/// Plates at both ends of z (no slip); `drive` is read at every solve.
+/// Plates at both ends of z (no slip).
 std::unique_ptr<ModeSolver> make_walled_modes(const Grid &grid, const Box &modes, double viscosity,
-                                              double shift, const Drive &drive);
+                                              double shift);
 
 }    // namespace fluid

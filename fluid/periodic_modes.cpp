@@ -7,8 +7,10 @@ namespace {
 
 class PeriodicModes : public ModeSolver {
  public:
-  PeriodicModes(const Grid &grid, const Box &modes, double viscosity, double shift) :
-      grid_(grid), modes_(modes), viscosity_(viscosity), shift_(shift),
+  PeriodicModes(const Grid &grid, const Box &modes, double viscosity, double shift,
+                bool hold_mean) :
+      grid_(grid),
+      modes_(modes), viscosity_(viscosity), shift_(shift), hold_mean_(hold_mean),
       x_(grid.cells[0], grid.spacing[0], modes.lo[0], modes.hi[0]),
       y_(grid.cells[1], grid.spacing[1], modes.lo[1], modes.hi[1]),
       z_(grid.cells[2], grid.spacing[2], 0, grid.cells[2])
@@ -25,18 +27,33 @@ class PeriodicModes : public ModeSolver {
     backward_ = plan(FFTW_BACKWARD);
   }
 
-  void solve(const std::array<View<Complex>, 3> &spectrum, const View<Complex> *pressure) override
+  void set_shift(double shift) override { shift_ = shift; }
+
+  void solve(const std::array<View<Complex>, 3> &spectrum, const Drive &drive,
+             const View<Complex> *pressure) override
   {
     if (modes_.empty()) return;
     for (int ky = modes_.lo[1]; ky < modes_.hi[1]; ++ky) {
       for (const auto &component : spectrum) transform(forward_, component, ky);
       for (int kz = 0; kz < grid_.cells[2]; ++kz) project_row(spectrum, pressure, ky, kz);
+      if (ky == 0 && modes_.contains({0, 0, 0})) drive_mean(spectrum, drive);
       for (const auto &component : spectrum) transform(backward_, component, ky);
       if (pressure) transform(backward_, *pressure, ky);
     }
   }
 
  private:
+  void drive_mean(const std::array<View<Complex>, 3> &spectrum, const Drive &drive) const
+  {
+    for (int c = 0; c < 3; ++c) {
+      Complex &mean = spectrum[c](0, 0, 0);
+      if (hold_mean_)
+        mean = drive.mean[c];
+      else if (shift_ > 0)
+        mean += drive.body[c] / shift_;
+    }
+  }
+
   void transform(const Plan &plan, const View<Complex> &component, int ky) const
   {
     auto *row = reinterpret_cast<fftw_complex *>(&component(modes_.lo[0], ky, 0));
@@ -76,6 +93,7 @@ class PeriodicModes : public ModeSolver {
   Grid grid_;
   Box modes_;
   double viscosity_, shift_;
+  bool hold_mean_;
   Wavenumbers x_, y_, z_;
   Plan forward_, backward_;
 };
@@ -83,9 +101,9 @@ class PeriodicModes : public ModeSolver {
 }    // namespace
 
 std::unique_ptr<ModeSolver> make_periodic_modes(const Grid &grid, const Box &modes,
-                                                double viscosity, double shift)
+                                                double viscosity, double shift, bool hold_mean)
 {
-  return std::make_unique<PeriodicModes>(grid, modes, viscosity, shift);
+  return std::make_unique<PeriodicModes>(grid, modes, viscosity, shift, hold_mean);
 }
 
 }    // namespace fluid

@@ -8,15 +8,17 @@ namespace fluid {
 /// faces of a distributed staggered grid, exact for the discrete equations.
 class StokesSolver {
  public:
-  /// `storage` is the box over which the fields are stored; `drive` is read at every solve.
+  /// `storage` is the box over which the fields are stored; `hold_mean` as for make_periodic_modes.
   StokesSolver(const Grid &grid, const Decomposition &decomposition, const Box &storage,
-               double viscosity, double shift, const Drive &drive);
+               double viscosity, double shift, bool hold_mean);
 
-  /// Sets the velocity on this rank's brick from the force on all bricks.
-  void velocity(const VectorField &force, const VectorField &velocity);
+  void set_shift(double shift) { modes_->set_shift(shift); }
+
+  /// Sets the velocity on this rank's brick from the force on all bricks; they may be the same field.
+  void velocity(const VectorField &force, const Drive &drive, const VectorField &velocity);
 
   /// Sets the pressure (mean zero) that belongs to the force; costs a solve, and memory at the first call.
-  void pressure(const VectorField &force, const ScalarField &pressure);
+  void pressure(const VectorField &force, const Drive &drive, const ScalarField &pressure);
 
   Traffic traffic() const { return fourier_.traffic(); }
   std::size_t bytes() const { return fourier_.bytes() + pressure_modes_.bytes(); }

@@ -18,10 +18,8 @@ using Lanes = Lane<lanes>;
 /// where A_w, A_c are the Helmholtz operators on faces and centres and D the difference in z.
 class WalledModes : public ModeSolver {
  public:
-  WalledModes(const Grid &grid, const Box &modes, double viscosity, double shift,
-              const Drive &drive) :
-      grid_(grid),
-      modes_(modes), viscosity_(viscosity), shift_(shift), drive_(drive),
+  WalledModes(const Grid &grid, const Box &modes, double viscosity, double shift) :
+      grid_(grid), modes_(modes), viscosity_(viscosity), shift_(shift),
       x_(grid.cells[0], grid.spacing[0], modes.lo[0], modes.hi[0]),
       y_(grid.cells[1], grid.spacing[1], modes.lo[1], modes.hi[1]), across_(grid.cells[2]),
       along_(grid.cells[2]),
@@ -31,10 +29,13 @@ class WalledModes : public ModeSolver {
   {
   }
 
-  void solve(const std::array<View<Complex>, 3> &spectrum, const View<Complex> *pressure) override
+  void set_shift(double shift) override { shift_ = shift; }
+
+  void solve(const std::array<View<Complex>, 3> &spectrum, const Drive &drive,
+             const View<Complex> *pressure) override
   {
     const bool mean = modes_.contains({0, 0, 0});
-    if (mean) solve_mean(spectrum);
+    if (mean) solve_mean(spectrum, drive);
     for (int ky = modes_.lo[1]; ky < modes_.hi[1]; ++ky)
       for (int kx = modes_.lo[0]; kx < modes_.hi[0]; kx += lanes)
         solve_block(spectrum, pressure, kx, ky, std::min(lanes, modes_.hi[0] - kx));
@@ -46,7 +47,7 @@ class WalledModes : public ModeSolver {
   double normalisation() const { return 1.0 / (double(grid_.cells[0]) * grid_.cells[1]); }
 
   /// Mean profiles of u, v and p (that of w is zero): the plates drive the flow through these only.
-  void solve_mean(const std::array<View<Complex>, 3> &spectrum)
+  void solve_mean(const std::array<View<Complex>, 3> &spectrum, const Drive &drive)
   {
     const int n = grid_.cells[2];
     const double b = over_h2(), scale = normalisation();
@@ -55,18 +56,18 @@ class WalledModes : public ModeSolver {
     across_.factor(diagonal_shift, b);
     for (int c = 0; c < 2; ++c) {
       for (int k = 0; k < n; ++k) {
-        across_.re[k].setConstant(spectrum[c](0, 0, k).real() * scale + drive_.body[c]);
+        across_.re[k].setConstant(spectrum[c](0, 0, k).real() * scale + drive.body[c]);
         across_.im[k].setZero();
       }
-      across_.re[0] += 2 * b * drive_.walls.lower[c];
-      across_.re[n - 1] += 2 * b * drive_.walls.upper[c];
+      across_.re[0] += 2 * b * drive.walls.lower[c];
+      across_.re[n - 1] += 2 * b * drive.walls.upper[c];
       across_.solve();
       for (int k = 0; k < n; ++k) mean_velocity_[c][k] = across_.re[k][0];
     }
 
     double mean = 0;
     for (int k = 1; k < n; ++k) {
-      const double gradient = spectrum[2](0, 0, k).real() * scale + drive_.body[2];
+      const double gradient = spectrum[2](0, 0, k).real() * scale + drive.body[2];
       mean_pressure_[k] = mean_pressure_[k - 1] + grid_.spacing[2] * gradient;
       mean += mean_pressure_[k] / n;
     }
@@ -198,7 +199,6 @@ class WalledModes : public ModeSolver {
   Grid grid_;
   Box modes_;
   double viscosity_, shift_;
-  const Drive &drive_;
   Wavenumbers x_, y_;
   HelmholtzColumns<lanes> across_;
   Columns<lanes> along_;
@@ -211,9 +211,9 @@ class WalledModes : public ModeSolver {
 }    // namespace
 
 std::unique_ptr<ModeSolver> make_walled_modes(const Grid &grid, const Box &modes, double viscosity,
-                                              double shift, const Drive &drive)
+                                              double shift)
 {
-  return std::make_unique<WalledModes>(grid, modes, viscosity, shift, drive);
+  return std::make_unique<WalledModes>(grid, modes, viscosity, shift);
 }
 
 }    // namespace fluid

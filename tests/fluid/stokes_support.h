@@ -14,7 +14,8 @@ class StokesCase {
       grid_(grid),
       brick_(decomposition.mine()), viscosity_(viscosity), shift_(shift), drive_(drive),
       halo_(grid, decomposition, 1), force_(halo_.box()), velocity_(halo_.box()),
-      pressure_(halo_.box()), solver_(grid, decomposition, halo_.box(), viscosity, shift, drive_)
+      pressure_(halo_.box()),
+      solver_(grid, decomposition, halo_.box(), viscosity, shift, shift == 0)
   {
   }
   StokesCase(const StokesCase &) = delete;
@@ -28,8 +29,8 @@ class StokesCase {
   template <typename Value> void solve(const Value &value)
   {
     set_vector(force_, grid_, brick_, value);
-    solver_.velocity(force_, velocity_);
-    solver_.pressure(force_, pressure_);
+    solver_.velocity(force_, drive_, velocity_);
+    solver_.pressure(force_, drive_, pressure_);
     halo_.fill(velocity_.views());
     halo_.fill(pressure_.views());
   }
