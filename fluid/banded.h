@@ -15,7 +15,14 @@ template <int N> struct Columns {
   std::vector<Lane<N>> re, im;
 };
 
-/// Columns of (a - b h^2 d^2/dz^2) x = r with r, x in cell centres and x = 0 on both plates, solved by L D L^T.
+/// What holds beyond the first and the last of a column's points, in units of the coefficient b.
+enum class ColumnEnds {
+  no_flux = -1,    ///< the value of the last point
+  zero = 0,        ///< zero at the next point
+  no_slip = 1      ///< zero midway to the next point
+};
+
+/// Columns of (a - b h^2 d^2/dz^2) x = r, solved by L D L^T.
 /// `factor` takes a and b = viscosity / h^2; `solve` replaces r by x.
 template <int N> class HelmholtzColumns : public Columns<N> {
  public:
@@ -24,11 +31,11 @@ template <int N> class HelmholtzColumns : public Columns<N> {
 
   explicit HelmholtzColumns(int n) : Columns<N>(n), inverse_pivot_(n), ratio_(n) {}
 
-  void factor(const Lane<N> &a, double b)
+  void factor(const Lane<N> &a, double b, ColumnEnds ends = ColumnEnds::no_slip)
   {
     const int n = static_cast<int>(re.size());
     for (int k = 0; k < n; ++k) {
-      Lane<N> pivot = a + b * (2 + (k == 0) + (k == n - 1));
+      Lane<N> pivot = a + b * (2 + static_cast<int>(ends) * ((k == 0) + (k == n - 1)));
       if (k > 0) pivot -= b * ratio_[k - 1];
       inverse_pivot_[k] = 1 / pivot;
       ratio_[k] = b * inverse_pivot_[k];

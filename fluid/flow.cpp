@@ -1,33 +1,41 @@
 #include "flow.h"
 
-#include <cmath>
+#include "history.h"
+
+#include <cassert>
 
 namespace fluid {
 
 namespace {
 
-template <typename Visit> void for_each_cell(const Box &box, Visit visit)
+template <typename Row> void for_each_row(const Box &box, Row row)
 {
   for (int k = box.lo[2]; k < box.hi[2]; ++k)
-    for (int j = box.lo[1]; j < box.hi[1]; ++j)
-      for (int i = box.lo[0]; i < box.hi[0]; ++i) visit(i, j, k);
+    for (int j = box.lo[1]; j < box.hi[1]; ++j) row(j, k);
 }
 
-template <typename Values> void sum_over_ranks(Values &values, MPI_Comm comm)
+/// y += factor x over all that both store; they are stored alike.
+void add(const VectorField &y, double factor, const VectorField &x)
 {
-  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM,
-                comm);
+  const std::size_t n = 3 * y.box().size();
+  double *const to = y[0].data;
+  const double *const from = x[0].data;
+  for (std::size_t i = 0; i < n; ++i) to[i] += factor * from[i];
 }
 
 }    // namespace
 
 Flow::Flow(const Grid &grid, const Decomposition &decomposition, int ghost_layers,
-           double viscosity) :
+           const Regime &regime) :
     grid_(grid),
-    decomposition_(decomposition), viscosity_(viscosity), halo_(grid, decomposition, ghost_layers),
-    force_(halo_.box()), velocity_(halo_.box()),
-    solver_(grid, decomposition, halo_.box(), viscosity, 0.0, true)
+    decomposition_(decomposition), regime_(regime),
+    halo_(grid, decomposition, std::max(ghost_layers, 1)), has_force_(ghost_layers > 0),
+    velocity_(halo_.box()), solver_(grid, decomposition, halo_.box(), regime.viscosity, 0.0,
+                                    regime.hold_mean, regime.scheme)
 {
+  if (has_force_) force_ = VectorField(halo_.box());
+  if (regime.inertia != Inertia::none) previous_ = VectorField(halo_.box());
+  if (regime.inertia == Inertia::convective) rhs_ = VectorField(halo_.box());
 }
 
 void Flow::clear_force()
@@ -50,95 +58,249 @@ void Flow::gather_force()
 
 void Flow::solve()
 {
-  solver_.velocity(force_, drive, velocity_);
+  if (!has_force()) velocity_.clear();
+  solver_.velocity(has_force() ? force_ : velocity_, drive, velocity_);
+  walls_ = drive.walls;
+  shared_ = false;
+}
+
+void Flow::set_shift(double shift)
+{
+  if (shift == shift_) return;
+  shift_ = shift;
+  solver_.set_shift(shift);
+}
+
+/// result = f + shift u: what the momentum equation holds besides its unknowns, without advection.
+void Flow::assemble(const VectorField &velocity, const VectorField &result) const
+{
+  const int first = brick().lo[0], n = brick().extent(0);
+  for (int c = 0; c < 3; ++c)
+    for_each_row(brick(), [&, u = velocity[c], to = result[c]](int j, int k) {
+      const double *const u_row = &u(first, j, k);
+      double *const row = &to(first, j, k);
+      for (int i = 0; i < n; ++i) row[i] = shift_ * u_row[i];
+      if (!has_force()) return;
+      const double *const f = &force_[c](first, j, k);
+      for (int i = 0; i < n; ++i) row[i] += f[i];
+    });
+}
+
+void Flow::start_step(double dt)
+{
+  assert(regime_.inertia != Inertia::none);
+  const double before = dt_;
+  dt_ = dt;
+  set_shift(2 * regime_.density / dt);
+
+  if (regime_.inertia == Inertia::convective) {
+    share_velocity();
+    assemble(velocity_, rhs_);
+    const double extrapolation = steps_ > 0 ? 0.5 * dt / before : 0;
+    add_advection(grid_, brick(), velocity_, -regime_.density * (1 + extrapolation), rhs_);
+    if (extrapolation > 0)
+      add_advection(grid_, brick(), previous_, regime_.density * extrapolation, rhs_);
+    std::swap(velocity_, previous_);
+    solver_.velocity(rhs_, drive, velocity_);
+  } else {
+    std::swap(velocity_, previous_);
+    assemble(previous_, velocity_);
+    solver_.velocity(velocity_, drive, velocity_);
+  }
+  previous_walls_ = walls_;
+  walls_ = drive.walls;
+  shared_ = false;
+  stepped_ = true;
+}
+
+void Flow::finish_step()
+{
+  walls_ = drive.walls;
+  if (!damped()) {
+    const std::size_t n = 3 * velocity_.box().size();
+    double *const u = velocity_[0].data;
+    const double *const start = previous_[0].data;
+    for (std::size_t i = 0; i < n; ++i) u[i] = 2 * u[i] - start[i];
+    if (grid_.walls && shared_) reflect_velocity(grid_, walls_, velocity_);
+  } else if (regime_.inertia == Inertia::convective) {
+    for (int c = 0; c < 3; ++c)
+      for_each_row(brick(), [&, u = velocity_[c], start = previous_[c], r = rhs_[c]](int j, int k) {
+        for (int i = brick().lo[0]; i < brick().hi[0]; ++i)
+          r(i, j, k) += shift_ * (u(i, j, k) - start(i, j, k));
+      });
+    solver_.velocity(rhs_, drive, velocity_);
+    shared_ = false;
+  } else {
+    std::swap(velocity_, previous_);
+    assemble(previous_, velocity_);
+    solver_.velocity(velocity_, drive, velocity_);
+    shared_ = false;
+  }
+  ++steps_;
 }
 
 void Flow::share_velocity()
 {
-  halo_.fill(velocity_.views());
-  if (grid_.walls) reflect_velocity(grid_, drive.walls, velocity_);
+  if (!shared_) fill_ghosts(velocity_, walls_);
+  shared_ = true;
+}
+
+void Flow::fill_ghosts(const VectorField &velocity, const Walls &walls)
+{
+  halo_.fill(velocity.views());
+  if (grid_.walls) reflect_velocity(grid_, walls, velocity);
+}
+
+void Flow::share_force()
+{
+  halo_.fill(force_.views());
 }
 
 void Flow::interpolate(KernelKind kernel, const Markers &markers, const double *position,
                        double *velocity) const
 {
+  assert(shared_);
   fluid::interpolate(kernel, grid_, markers, position, velocity_, velocity);
+}
+
+int Flow::respond(KernelKind kernel, const Markers &markers, const double *position,
+                  const double *force, double *velocity)
+{
+  if (!response_.bytes()) {
+    response_force_ = VectorField(halo_.box());
+    response_ = VectorField(halo_.box());
+  }
+  response_force_.clear();
+  const int outside = fluid::spread(kernel, grid_, markers, position, force, 1.0, response_force_);
+  if (outside >= 0) return outside;
+  response_lower_ = response_upper_ = {0, 0, 0};
+  if (grid_.walls) fold_force(grid_, response_force_, response_lower_, response_upper_);
+  halo_.add_back(response_force_.views());
+  solver_.velocity(response_force_, {}, response_);
+  fill_ghosts(response_, {});
+  fluid::interpolate(kernel, grid_, markers, position, response_, velocity);
+  return -1;
+}
+
+void Flow::add_response(double factor)
+{
+  add(force_, factor, response_force_);
+  add(velocity_, factor, response_);
+  for (int c = 0; c < 3; ++c) {
+    lower_direct_[c] += factor * response_lower_[c];
+    upper_direct_[c] += factor * response_upper_[c];
+  }
 }
 
 const ScalarField &Flow::pressure()
 {
   if (!pressure_.bytes()) pressure_ = ScalarField(halo_.box());
-  solver_.pressure(force_, drive, pressure_);
+  if (regime_.inertia == Inertia::none) {
+    if (has_force())
+      solver_.pressure(force_, drive, pressure_);
+    else
+      pressure_.clear();
+  } else if (stepped_) {
+    if (!rhs_.bytes()) rhs_ = VectorField(halo_.box());
+    if (regime_.inertia == Inertia::unsteady) assemble(previous_, rhs_);
+    solver_.pressure(rhs_, drive, pressure_);
+  }
   return pressure_;
 }
 
-FlowMeasures Flow::measure() const
-{
-  const auto u = velocity_.views();
-  std::array<double, 4> sums{};
-  std::array<double, 2> largest{};
-  for_each_cell(brick(), [&](int i, int j, int k) {
-    const Vec3 low{u[0](i, j, k), u[1](i, j, k), u[2](i, j, k)};
-    const Vec3 high{u[0](i + 1, j, k), u[1](i, j + 1, k), u[2](i, j, k + 1)};
-    double speed2 = 0, divergence = 0;
-    for (int c = 0; c < 3; ++c) {
-      sums[c] += low[c];
-      sums[3] += 0.25 * (low[c] * low[c] + high[c] * high[c]);
-      speed2 += 0.25 * (low[c] + high[c]) * (low[c] + high[c]);
-      divergence += (high[c] - low[c]) / grid_.spacing[c];
-    }
-    largest[0] = std::max(largest[0], std::sqrt(speed2));
-    largest[1] = std::max(largest[1], std::abs(divergence));
-  });
-  sum_over_ranks(sums, decomposition_.comm);
-  MPI_Allreduce(MPI_IN_PLACE, largest.data(), 2, MPI_DOUBLE, MPI_MAX, decomposition_.comm);
+// ---- history: the velocity, with convection that before it, with projection the pressure modes
 
-  FlowMeasures measures;
-  for (int c = 0; c < 3; ++c) measures.mean_velocity[c] = sums[c] / grid_.size();
-  measures.kinetic_energy_per_density = sums[3] * grid_.cell_volume();
-  measures.max_speed = largest[0];
-  measures.max_divergence = largest[0] > 0 ? largest[1] * grid_.spacing[0] / largest[0] : 0;
-  if (grid_.walls) measure_tractions(measures);
-  return measures;
+namespace {
+
+constexpr std::size_t head = 14;    // steps, dt, walls, previous walls
+
+Box all_modes(const Grid &grid)
+{
+  Box box = grid.domain();
+  box.hi[0] = grid.cells[0] / 2 + 1;
+  return box;
 }
 
-/// The shear tractions are those of the discrete equations, so that plates and applied forces balance to
-/// round-off; the normal ones are the mean pressure at the plates, of mean zero over the fluid.
-void Flow::measure_tractions(FlowMeasures &measures) const
-{
-  const int n = grid_.cells[2];
-  std::vector<double> sums(10 + n);    // u, v next to each plate; direct forces; f_w of each plane
-  for_each_cell(brick(), [&](int i, int j, int k) {
-    for (int c = 0; c < 2; ++c) {
-      if (k == 0) sums[c] += velocity_[c](i, j, k);
-      if (k == n - 1) sums[2 + c] += velocity_[c](i, j, k);
-    }
-    sums[10 + k] += force_[2](i, j, k);
-  });
-  for (int c = 0; c < 3; ++c) {
-    sums[4 + c] = lower_direct_[c];
-    sums[7 + c] = upper_direct_[c];
-  }
-  sum_over_ranks(sums, decomposition_.comm);
+}    // namespace
 
-  const double per_plane = 1.0 / (double(grid_.cells[0]) * grid_.cells[1]), h = grid_.spacing[2];
-  double pressure = 0, mean = 0;
-  for (int k = 1; k < n; ++k) {
-    pressure += h * (sums[10 + k] * per_plane + drive.body[2]);
-    mean += pressure / n;
+std::size_t Flow::history_length() const
+{
+  if (regime_.inertia == Inertia::none) return 0;
+  const std::size_t fields = regime_.inertia == Inertia::convective ? 2 : 1;
+  return head + fields * 3 * grid_.size() +
+         (solver_.kept_modes() ? 2 * all_modes(grid_).size() : 0);
+}
+
+std::vector<double> Flow::history()
+{
+  std::vector<double> all;
+  if (regime_.inertia == Inertia::none) return all;
+  const auto append = [&](const auto &whole) {
+    const auto *const first = reinterpret_cast<const double *>(whole[0].data);
+    all.insert(all.end(), first, first + whole.bytes() / sizeof(double));
+  };
+  const MPI_Comm comm = decomposition_.comm;
+  if (decomposition_.rank == 0) {
+    all.reserve(history_length());
+    all.assign({static_cast<double>(steps_), dt_});
+    for (const Vec3 &wall :
+         {walls_.lower, walls_.upper, previous_walls_.lower, previous_walls_.upper})
+      all.insert(all.end(), wall.begin(), wall.end());
   }
-  for (int c = 0; c < 3; ++c) {
-    measures.lower_traction[c] = sums[4 + c] * per_plane * h;
-    measures.upper_traction[c] = sums[7 + c] * per_plane * h;
+  append(gather(comm, decomposition_.bricks, grid_.domain(), velocity_));
+  if (regime_.inertia == Inertia::convective)
+    append(gather(comm, decomposition_.bricks, grid_.domain(), previous_));
+  if (const auto *kept = solver_.kept_modes())
+    append(gather(comm, solver_.mode_bricks(), all_modes(grid_), *kept));
+  return all;
+}
+
+void Flow::restore(const double *history)
+{
+  steps_ = static_cast<int>(history[0]);
+  dt_ = history[1];
+  const double *wall = history + 2;
+  for (Vec3 *to : {&walls_.lower, &walls_.upper, &previous_walls_.lower, &previous_walls_.upper}) {
+    std::copy_n(wall, 3, to->begin());
+    wall += 3;
   }
-  for (int c = 0; c < 2; ++c) {
-    measures.lower_traction[c] += 2 * viscosity_ / h * (sums[c] * per_plane - drive.walls.lower[c]);
-    measures.upper_traction[c] +=
-        2 * viscosity_ / h * (sums[2 + c] * per_plane - drive.walls.upper[c]);
+  const double *next = history + head;
+  cut_out(brick(), grid_.domain(), next, velocity_);
+  next += 3 * grid_.size();
+  if (regime_.inertia == Inertia::convective) {
+    cut_out(brick(), grid_.domain(), next, previous_);
+    next += 3 * grid_.size();
+    fill_ghosts(previous_, previous_walls_);
   }
-  const double weight = h / 2 * drive.body[2];    // of the half cells at the plates
-  measures.lower_traction[2] += weight + mean;
-  measures.upper_traction[2] += weight + pressure - mean;
+  if (const auto *kept = solver_.kept_modes())
+    cut_out(kept->box(), all_modes(grid_), reinterpret_cast<const Complex *>(next), *kept);
+  shared_ = stepped_ = false;
+}
+
+void Flow::take_over(Flow &old)
+{
+  drive = old.drive;
+  walls_ = old.walls_;
+  previous_walls_ = old.previous_walls_;
+  lower_direct_ = old.lower_direct_;
+  upper_direct_ = old.upper_direct_;
+  steps_ = old.steps_;
+  dt_ = old.dt_;
+  if (regime_.inertia != Inertia::none) set_shift(old.shift_);
+  stepped_ = old.stepped_;
+  shared_ = false;
+  const auto move_field = [&](const VectorField &from, const VectorField &to) {
+    move(decomposition_.comm, old.decomposition_.bricks, from.views(), decomposition_.bricks,
+         to.views());
+  };
+  move_field(old.velocity_, velocity_);
+  if (old.has_force_ && has_force_) move_field(old.force_, force_);
+  if (regime_.inertia != Inertia::none) move_field(old.previous_, previous_);
+  if (regime_.inertia == Inertia::convective) move_field(old.rhs_, rhs_);
+  if (regime_.inertia == Inertia::convective) fill_ghosts(previous_, previous_walls_);
+  if (const auto *kept = solver_.kept_modes())
+    move(decomposition_.comm, old.solver_.mode_bricks(), old.solver_.kept_modes()->views(),
+         solver_.mode_bricks(), kept->views());
 }
 
 Traffic Flow::traffic() const
@@ -149,7 +311,11 @@ Traffic Flow::traffic() const
 
 std::size_t Flow::bytes() const
 {
-  return force_.bytes() + velocity_.bytes() + pressure_.bytes() + halo_.bytes() + solver_.bytes();
+  std::size_t sum = pressure_.bytes() + halo_.bytes() + solver_.bytes();
+  for (const VectorField *field :
+       {&force_, &velocity_, &previous_, &rhs_, &response_force_, &response_})
+    sum += field->bytes();
+  return sum;
 }
 
 }    // namespace fluid

@@ -1,30 +1,27 @@
 #pragma once
 
+#include "advection.h"
 #include "coupling.h"
 #include "plates.h"
+#include "regime.h"
 #include "stokes_solver.h"
 
 namespace fluid {
 
-/// Global measures of a flow; forces are those the fluid exerts.
-struct FlowMeasures {
-  double kinetic_energy_per_density = 0;    ///< half the volume integral of u^2
-  Vec3 lower_traction{0, 0, 0};    ///< force per area on the lower plate, zero without plates
-  Vec3 upper_traction{0, 0, 0};
-  Vec3 mean_velocity{0, 0, 0};
-  double max_speed = 0;
-  double max_divergence = 0;    ///< times the spacing, over max_speed
-};
-
-/// Stokes flow around immersed boundaries on this rank's part of the grid. A step is
-///   clear_force, spread, solve, interpolate.
+/// Flow around immersed boundaries on this rank's part of the grid. Without inertia it follows from the forces:
+///   clear_force, spread, gather_force, solve, share_velocity, interpolate.
+/// With inertia time goes on by steps, in the middle of which velocity and forces meet:
+///   clear_force, spread, gather_force, start_step, share_velocity, interpolate, finish_step.
 class Flow {
  public:
-  Flow(const Grid &grid, const Decomposition &decomposition, int ghost_layers, double viscosity);
+  /// Without markers (ghost_layers = 0) no memory is kept for forces, and no ghosts but those of differences.
+  Flow(const Grid &grid, const Decomposition &decomposition, int ghost_layers,
+       const Regime &regime);
   Flow(const Flow &) = delete;
   Flow &operator=(const Flow &) = delete;
 
-  Drive drive;
+  Drive
+      drive;    ///< of the time for which is solved: with inertia the middle of the step, then its end
 
   void clear_force();
 
@@ -37,38 +34,91 @@ class Flow {
 
   void solve();
 
-  /// Fills the ghost layers of the velocity: the exchange between solve and interpolate.
+  /// From here to finish_step the velocity is that of the middle of the step. The first two steps of a flow are made
+  /// of two halves by backward Euler, so that a sudden start does not ring (Rannacher, Numer. Math. 43 (1984) 309).
+  void start_step(double dt);
+  void finish_step();
+
+  /// Fills the ghost layers of the velocity, unless they are: the exchange before interpolate.
   void share_velocity();
 
   /// Fills the ghost layers of the force; needed for output only.
-  void share_force() { halo_.fill(force_.views()); }
+  void share_force();
 
   void interpolate(KernelKind kernel, const Markers &markers, const double *position,
                    double *velocity) const;
 
+  /// Velocities at the markers that further forces on them would add now (solve, start_step): the mobility of the
+  /// markers. `add_response` adds a multiple of these forces and of their flow. Returns as spread.
+  int respond(KernelKind kernel, const Markers &markers, const double *position,
+              const double *force, double *velocity);
+  void add_response(double factor);
+
   const Grid &grid() const { return grid_; }
+  const Regime &regime() const { return regime_; }
+  const Decomposition &decomposition() const { return decomposition_; }
   const Box &brick() const { return decomposition_.mine(); }
+  bool has_force() const { return has_force_; }
   const VectorField &force() const { return force_; }
   const VectorField &velocity() const { return velocity_; }
+
+  /// Sets a velocity to start from, without divergence: velocity(c, i, j, k) on the brick's faces.
+  template <typename Value> void set_velocity(Value value)
+  {
+    const auto u = velocity_.views();
+    for (int c = 0; c < 3; ++c)
+      for (int k = brick().lo[2]; k < brick().hi[2]; ++k)
+        for (int j = brick().lo[1]; j < brick().hi[1]; ++j)
+          for (int i = brick().lo[0]; i < brick().hi[0]; ++i) u[c](i, j, k) = value(c, i, j, k);
+    shared_ = false;
+  }
+
+  /// Of the last solve or step: with inertia in its middle, and zero before the first step.
   const ScalarField &pressure();
 
-  /// Collective.
-  FlowMeasures measure() const;
+  /// Force density (summed over this rank's cells) that went straight into a plate.
+  const Vec3 &lower_direct() const { return lower_direct_; }
+  const Vec3 &upper_direct() const { return upper_direct_; }
+
+  /// What a flow with inertia remembers from step to step, of the whole grid, on rank 0; elsewhere empty. Collective.
+  std::vector<double> history();
+  std::size_t history_length() const;
+  void restore(const double *history);
+
+  /// Continues the flow of `old`, on whatever bricks. Collective.
+  void take_over(Flow &old);
 
   Traffic traffic() const;
   std::size_t bytes() const;
 
  private:
-  void measure_tractions(FlowMeasures &measures) const;
+  bool damped() const { return steps_ < 2; }
+  void assemble(const VectorField &velocity, const VectorField &result) const;
+  void set_shift(double shift);
+  void fill_ghosts(const VectorField &velocity, const Walls &walls);
 
   Grid grid_;
   Decomposition decomposition_;
-  double viscosity_;
+  Regime regime_;
   Halo halo_;
+  bool has_force_;
   VectorField force_, velocity_;
+  Walls walls_;            ///< of the time of the velocity
+  bool shared_ = false;    ///< the ghosts of the velocity are filled
+  Vec3 lower_direct_{0, 0, 0}, upper_direct_{0, 0, 0};
+
+  // with inertia
+  int steps_ = 0;
+  double shift_ = 0, dt_ = 0;
+  VectorField previous_;    ///< velocity at the start of the step
+  Walls previous_walls_;
+  VectorField
+      rhs_;    ///< of the momentum equation; without convection only where the pressure is asked for
+  bool stepped_ = false;    ///< since construction
+
   ScalarField pressure_;
-  Vec3 lower_direct_{0, 0, 0},
-      upper_direct_{0, 0, 0};    ///< spread force that went straight into a plate
+  VectorField response_force_, response_;
+  Vec3 response_lower_{0, 0, 0}, response_upper_{0, 0, 0};
   StokesSolver solver_;
 };
 

@@ -31,6 +31,7 @@ Fourier::Fourier(const Grid &grid, const Decomposition &decomposition, const Box
 
   const int me = decomposition.rank;
   row_box_ = pencils.real_x[me];
+  mode_bricks_ = pencils.z;
   storage_[0] = Modes(pencils.z[me]);
   z_ = &storage_[0];
   if (!y_to_z_.identity()) storage_[1] = Modes(pencils.y[me]);

@@ -36,6 +36,9 @@ class Fourier {
   /// Modes (kx, ky) this rank holds, with all of z.
   const Box &modes() const { return z_->box(); }
 
+  /// The modes of every rank.
+  const std::vector<Box> &mode_bricks() const { return mode_bricks_; }
+
   /// Transforms the values on this rank's brick; the result stands in spectrum().
   template <std::size_t N> void forward(const std::array<View<double>, N> &values);
 
@@ -58,6 +61,7 @@ class Fourier {
   std::array<Modes, 3> storage_;
   const Modes *x_, *y_, *z_;
   Box row_box_;
+  std::vector<Box> mode_bricks_;
   Plan x_forward_, x_backward_, y_forward_, y_backward_;
 };
 

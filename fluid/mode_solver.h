@@ -31,6 +31,9 @@ class ModeSolver {
                      const View<Complex> *pressure) = 0;
 
   virtual void set_shift(double shift) = 0;
+
+  /// The pressure kept from solve to solve, if the scheme does; its memory.
+  virtual const Components<Complex, 1> *kept_pressure() const { return nullptr; }
 };
 
 /// Triply periodic. Where the mean velocity is held it is that of the drive, and a uniform pressure gradient
@@ -41,5 +44,11 @@ std::unique_ptr<ModeSolver> make_periodic_modes(const Grid &grid, const Box &mod
 /// Plates at both ends of z (no slip).
 std::unique_ptr<ModeSolver> make_walled_modes(const Grid &grid, const Box &modes, double viscosity,
                                               double shift);
+
+/// The same by a fractional step: momentum with the pressure of the solve before, then a projection that makes the
+/// velocity free of divergence and changes the pressure (Guermond, Minev & Shen, Comput. Methods Appl. Mech. Engrg. 195
+/// (2006) 6011, section 3.4: incremental, rotational). The velocity slips along the plates by the splitting error.
+std::unique_ptr<ModeSolver> make_projected_modes(const Grid &grid, const Box &modes,
+                                                 double viscosity, double shift);
 
 }    // namespace fluid

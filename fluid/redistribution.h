@@ -6,6 +6,23 @@
 
 namespace fluid {
 
+/// Exchange from one set of bricks (rank r owns from[r]) to another (to[r]).
+template <typename T>
+Exchange<T> exchange_between(MPI_Comm comm, const std::vector<Box> &from,
+                             const std::vector<Box> &to)
+{
+  int me;
+  MPI_Comm_rank(comm, &me);
+  std::vector<Transfer> sends, receives;
+  for (int r = 0; r < static_cast<int>(from.size()); ++r) {
+    const Box both_out = intersection(from[me], to[r]);
+    const Box both_in = intersection(from[r], to[me]);
+    if (!both_out.empty()) sends.push_back({r, both_out});
+    if (!both_in.empty()) receives.push_back({r, both_in});
+  }
+  return {comm, sends, receives};
+}
+
 /// Moves a distributed array from one set of bricks (rank r owns from[r]) to another (to[r]).
 /// Moves nothing, and needs no memory, where every rank's brick is the same in both.
 template <typename T> class Redistribution {
@@ -14,17 +31,7 @@ template <typename T> class Redistribution {
   Redistribution(MPI_Comm comm, const std::vector<Box> &from, const std::vector<Box> &to) :
       identity_(from == to)
   {
-    if (identity_) return;
-    int me;
-    MPI_Comm_rank(comm, &me);
-    std::vector<Transfer> sends, receives;
-    for (int r = 0; r < static_cast<int>(from.size()); ++r) {
-      const Box both_out = intersection(from[me], to[r]);
-      const Box both_in = intersection(from[r], to[me]);
-      if (!both_out.empty()) sends.push_back({r, both_out});
-      if (!both_in.empty()) receives.push_back({r, both_in});
-    }
-    exchange_ = Exchange<T>(comm, sends, receives);
+    if (!identity_) exchange_ = exchange_between<T>(comm, from, to);
   }
 
   bool identity() const { return identity_; }

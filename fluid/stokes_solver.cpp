@@ -3,10 +3,12 @@
 namespace fluid {
 
 StokesSolver::StokesSolver(const Grid &grid, const Decomposition &decomposition, const Box &storage,
-                           double viscosity, double shift, bool hold_mean) :
+                           double viscosity, double shift, bool hold_mean, Scheme scheme) :
     fourier_(grid, decomposition, storage),
-    modes_(grid.walls ? make_walled_modes(grid, fourier_.modes(), viscosity, shift)
-                      : make_periodic_modes(grid, fourier_.modes(), viscosity, shift, hold_mean))
+    modes_(!grid.walls ? make_periodic_modes(grid, fourier_.modes(), viscosity, shift, hold_mean)
+           : scheme == Scheme::projection
+               ? make_projected_modes(grid, fourier_.modes(), viscosity, shift)
+               : make_walled_modes(grid, fourier_.modes(), viscosity, shift))
 {
 }
 
@@ -26,12 +28,21 @@ void StokesSolver::velocity(const VectorField &force, const Drive &drive,
 void StokesSolver::pressure(const VectorField &force, const Drive &drive,
                             const ScalarField &pressure)
 {
-  if (!pressure_modes_.bytes()) pressure_modes_ = Components<Complex, 1>(fourier_.modes());
-  const View<Complex> modes = pressure_modes_[0];
-  fourier_.forward(force.views());
-  modes_->solve(spectrum(), drive, &modes);
+  const Components<Complex, 1> *const kept = modes_->kept_pressure();
+  if (!kept && !pressure_modes_.bytes()) pressure_modes_ = Components<Complex, 1>(fourier_.modes());
+  const View<Complex> modes = kept ? (*kept)[0] : pressure_modes_[0];
+  if (!kept) {
+    fourier_.forward(force.views());
+    modes_->solve(spectrum(), drive, &modes);
+  }
   std::copy_n(modes.data, modes.box.size(), fourier_.spectrum(0).data);
   fourier_.backward(pressure.views());
+}
+
+std::size_t StokesSolver::bytes() const
+{
+  const Components<Complex, 1> *const kept = modes_->kept_pressure();
+  return fourier_.bytes() + pressure_modes_.bytes() + (kept ? kept->bytes() : 0);
 }
 
 }    // namespace fluid

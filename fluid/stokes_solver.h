@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mode_solver.h"
+#include "regime.h"
 
 namespace fluid {
 
@@ -10,18 +11,23 @@ class StokesSolver {
  public:
   /// `storage` is the box over which the fields are stored; `hold_mean` as for make_periodic_modes.
   StokesSolver(const Grid &grid, const Decomposition &decomposition, const Box &storage,
-               double viscosity, double shift, bool hold_mean);
+               double viscosity, double shift, bool hold_mean, Scheme scheme = Scheme::coupled);
 
   void set_shift(double shift) { modes_->set_shift(shift); }
 
   /// Sets the velocity on this rank's brick from the force on all bricks; they may be the same field.
   void velocity(const VectorField &force, const Drive &drive, const VectorField &velocity);
 
-  /// Sets the pressure (mean zero) that belongs to the force; costs a solve, and memory at the first call.
+  /// Sets the pressure (mean zero) that belongs to the force; costs a solve, and memory at the first call. That of a
+  /// projection is the one of the last solve.
   void pressure(const VectorField &force, const Drive &drive, const ScalarField &pressure);
 
+  /// The modes kept from solve to solve (none but the pressure of a projection), and where they are.
+  const Components<Complex, 1> *kept_modes() const { return modes_->kept_pressure(); }
+  const std::vector<Box> &mode_bricks() const { return fourier_.mode_bricks(); }
+
   Traffic traffic() const { return fourier_.traffic(); }
-  std::size_t bytes() const { return fourier_.bytes() + pressure_modes_.bytes(); }
+  std::size_t bytes() const;
 
  private:
   std::array<View<Complex>, 3> spectrum() const;

@@ -248,7 +248,7 @@ void FixRBCFluid::build_flow()
 
   ghost_layers = layers_needed();
   stokes_flow = std::make_unique<fluid::Flow>(staggered, fluid::Decomposition(world, brick),
-                                              ghost_layers, viscosity);
+                                              ghost_layers, fluid::Regime{viscosity, density});
   stokes_flow->drive = drive;
   current = false;
 }
@@ -372,7 +372,7 @@ void FixRBCFluid::reset_grid()
 const fluid::FlowMeasures &FixRBCFluid::measure()
 {
   if (measured_solves != nsolves) {
-    measures = stokes_flow->measure();
+    measures = fluid::measure(*stokes_flow);
     measured_solves = nsolves;
   }
   return measures;

@@ -8,7 +8,7 @@ FixStyle(rbc/fluid,FixRBCFluid);
 #define LMP_FIX_RBC_FLUID_H
 
 #include "fix.h"
-#include "flow.h"
+#include "measures.h"
 #include "rbc_number_or_variable.h"
 
 #include <array>

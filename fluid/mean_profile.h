@@ -1,0 +1,27 @@
+#pragma once
+
+#include "mode_solver.h"
+
+namespace fluid {
+
+/// Mean profiles over x and y between plates of u, v and p (that of w is zero): the plates and a uniform force drive
+/// the flow through these only.
+class MeanProfile {
+ public:
+  MeanProfile(const Grid &grid, double viscosity);
+
+  /// Solves (shift - viscosity d^2/dz^2) u = f; reads the mean modes of the force density.
+  void solve(const std::array<View<Complex>, 3> &force, double shift, const Drive &drive);
+
+  /// Writes the mean modes of the velocity, and of the pressure if given (its mean is zero).
+  void store(const std::array<View<Complex>, 3> &velocity, const View<Complex> *pressure) const;
+
+ private:
+  Grid grid_;
+  double viscosity_;
+  std::array<std::vector<double>, 2> velocity_;
+  std::vector<double> pressure_, ratio_;
+  double pressure_offset_ = 0;
+};
+
+}    // namespace fluid

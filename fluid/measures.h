@@ -1,0 +1,20 @@
+#pragma once
+
+#include "flow.h"
+
+namespace fluid {
+
+/// Global measures of a flow; forces are those the fluid exerts.
+struct FlowMeasures {
+  double kinetic_energy_per_density = 0;    ///< half the volume integral of u^2
+  Vec3 lower_traction{0, 0, 0};    ///< force per area on the lower plate, zero without plates
+  Vec3 upper_traction{0, 0, 0};
+  Vec3 mean_velocity{0, 0, 0};
+  double max_speed = 0;
+  double max_divergence = 0;    ///< times the smallest spacing, over max_speed
+};
+
+/// Collective; fills the ghosts of the velocity where they are not.
+FlowMeasures measure(Flow &flow);
+
+}    // namespace fluid
