@@ -59,9 +59,15 @@ void Flow::gather_force()
 void Flow::solve()
 {
   if (!has_force()) velocity_.clear();
-  solver_.velocity(has_force() ? force_ : velocity_, drive, velocity_);
+  solve_for(velocity_, has_force() ? force_ : velocity_, drive);
   walls_ = drive.walls;
   shared_ = false;
+}
+
+void Flow::solve_for(const VectorField &velocity, const VectorField &rhs, const Drive &by)
+{
+  solver_.velocity(rhs, by, velocity);
+  ++solves_;
 }
 
 void Flow::set_shift(double shift)
@@ -101,13 +107,14 @@ void Flow::start_step(double dt)
     if (extrapolation > 0)
       add_advection(grid_, brick(), previous_, regime_.density * extrapolation, rhs_);
     std::swap(velocity_, previous_);
-    solver_.velocity(rhs_, drive, velocity_);
+    solve_for(velocity_, rhs_, drive);
   } else {
     std::swap(velocity_, previous_);
     assemble(previous_, velocity_);
-    solver_.velocity(velocity_, drive, velocity_);
+    solve_for(velocity_, velocity_, drive);
   }
   previous_walls_ = walls_;
+  previous_shared_ = shared_;
   walls_ = drive.walls;
   shared_ = false;
   stepped_ = true;
@@ -121,6 +128,7 @@ void Flow::finish_step()
     double *const u = velocity_[0].data;
     const double *const start = previous_[0].data;
     for (std::size_t i = 0; i < n; ++i) u[i] = 2 * u[i] - start[i];
+    shared_ = shared_ && previous_shared_;
     if (grid_.walls && shared_) reflect_velocity(grid_, walls_, velocity_);
   } else if (regime_.inertia == Inertia::convective) {
     for (int c = 0; c < 3; ++c)
@@ -128,12 +136,12 @@ void Flow::finish_step()
         for (int i = brick().lo[0]; i < brick().hi[0]; ++i)
           r(i, j, k) += shift_ * (u(i, j, k) - start(i, j, k));
       });
-    solver_.velocity(rhs_, drive, velocity_);
+    solve_for(velocity_, rhs_, drive);
     shared_ = false;
   } else {
     std::swap(velocity_, previous_);
     assemble(previous_, velocity_);
-    solver_.velocity(velocity_, drive, velocity_);
+    solve_for(velocity_, velocity_, drive);
     shared_ = false;
   }
   ++steps_;
@@ -176,7 +184,7 @@ int Flow::respond(KernelKind kernel, const Markers &markers, const double *posit
   response_lower_ = response_upper_ = {0, 0, 0};
   if (grid_.walls) fold_force(grid_, response_force_, response_lower_, response_upper_);
   halo_.add_back(response_force_.views());
-  solver_.velocity(response_force_, {}, response_);
+  solve_for(response_, response_force_, {});
   fill_ghosts(response_, {});
   fluid::interpolate(kernel, grid_, markers, position, response_, velocity);
   return -1;
@@ -195,16 +203,12 @@ void Flow::add_response(double factor)
 const ScalarField &Flow::pressure()
 {
   if (!pressure_.bytes()) pressure_ = ScalarField(halo_.box());
-  if (regime_.inertia == Inertia::none) {
-    if (has_force())
-      solver_.pressure(force_, drive, pressure_);
-    else
-      pressure_.clear();
-  } else if (stepped_) {
-    if (!rhs_.bytes()) rhs_ = VectorField(halo_.box());
-    if (regime_.inertia == Inertia::unsteady) assemble(previous_, rhs_);
-    solver_.pressure(rhs_, drive, pressure_);
-  }
+  const bool steady = regime_.inertia == Inertia::none;
+  if (!steady && !stepped_) return pressure_;
+  const bool forces_only = steady && has_force_;
+  if (!forces_only && !rhs_.bytes()) rhs_ = VectorField(halo_.box());
+  if (regime_.inertia == Inertia::unsteady) assemble(previous_, rhs_);
+  solver_.pressure(forces_only ? force_ : rhs_, drive, pressure_);
   return pressure_;
 }
 
@@ -285,6 +289,7 @@ void Flow::take_over(Flow &old)
   lower_direct_ = old.lower_direct_;
   upper_direct_ = old.upper_direct_;
   steps_ = old.steps_;
+  solves_ = old.solves_;
   dt_ = old.dt_;
   if (regime_.inertia != Inertia::none) set_shift(old.shift_);
   stepped_ = old.stepped_;

@@ -34,10 +34,15 @@ class Flow {
 
   void solve();
 
+  /// Solves so far.
+  long solves() const { return solves_; }
+
   /// From here to finish_step the velocity is that of the middle of the step. The first two steps of a flow are made
   /// of two halves by backward Euler, so that a sudden start does not ring (Rannacher, Numer. Math. 43 (1984) 309).
   void start_step(double dt);
   void finish_step();
+
+  int steps() const { return steps_; }
 
   /// Fills the ghost layers of the velocity, unless they are: the exchange before interpolate.
   void share_velocity();
@@ -95,6 +100,7 @@ class Flow {
   bool damped() const { return steps_ < 2; }
   void assemble(const VectorField &velocity, const VectorField &result) const;
   void set_shift(double shift);
+  void solve_for(const VectorField &velocity, const VectorField &rhs, const Drive &by);
   void fill_ghosts(const VectorField &velocity, const Walls &walls);
 
   Grid grid_;
@@ -102,6 +108,7 @@ class Flow {
   Regime regime_;
   Halo halo_;
   bool has_force_;
+  long solves_ = 0;
   VectorField force_, velocity_;
   Walls walls_;            ///< of the time of the velocity
   bool shared_ = false;    ///< the ghosts of the velocity are filled
@@ -112,6 +119,7 @@ class Flow {
   double shift_ = 0, dt_ = 0;
   VectorField previous_;    ///< velocity at the start of the step
   Walls previous_walls_;
+  bool previous_shared_ = false;
   VectorField
       rhs_;    ///< of the momentum equation; without convection only where the pressure is asked for
   bool stepped_ = false;    ///< since construction

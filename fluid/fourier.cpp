@@ -21,6 +21,16 @@ template <std::size_t N> std::array<View<Complex>, N> leading(const Components<C
 
 }    // namespace
 
+int fast_size(int n)
+{
+  for (;; ++n) {
+    int rest = n;
+    for (int factor : {2, 3, 5, 7})
+      while (rest % factor == 0) rest /= factor;
+    if (rest == 1) return n;
+  }
+}
+
 Fourier::Fourier(const Grid &grid, const Decomposition &decomposition, const Box &storage)
 {
   const Pencils pencils = choose_pencils(grid, decomposition.bricks);

@@ -9,6 +9,9 @@ namespace fluid {
 
 using Complex = std::complex<double>;
 
+/// Smallest number of points >= n without prime factors above 7: FFTW is fast for these.
+int fast_size(int n);
+
 /// Owns an FFTW plan.
 class Plan {
  public:

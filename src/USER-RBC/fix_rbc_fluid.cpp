@@ -20,6 +20,7 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 
 static constexpr int MIN_CELLS = 4;
+static constexpr double MAX_COURANT = 1.0;
 static constexpr double MAX_CELLS =
     0.25 * MAXSMALLINT;    // on a rank: a message counts three values of each in an int
 static constexpr int KERNEL_LAYERS =
@@ -47,6 +48,7 @@ FixRBCFluid::FixRBCFluid(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg
     error->all(FLERR, "Fix rbc/fluid requires z to be periodic or fixed (boundary p or f)");
 
   parse(narg, arg);
+  restart_global = has_inertia();
   std::copy_n(domain->boxlo, 3, box_lo);
   std::copy_n(domain->boxhi, 3, box_hi);
   choose_grid();
@@ -75,7 +77,8 @@ void FixRBCFluid::parse_vector(int iarg, int narg, char **arg, const char *keywo
 
 void FixRBCFluid::parse(int narg, char **arg)
 {
-  bool wall_given[2] = {false, false};
+  bool wall_given[2] = {false, false}, mean_given = false, free_mean = false;
+  regime.viscosity = regime.density = 0;
   int iarg = 3;
   const auto need = [&](int n, const char *keyword) {
     if (iarg + n >= narg)
@@ -106,24 +109,35 @@ void FixRBCFluid::parse(int narg, char **arg)
       iarg += 4;
     } else if (keyword == "viscosity") {
       need(1, "viscosity");
-      viscosity = positive(iarg + 1, "viscosity");
+      regime.viscosity = positive(iarg + 1, "viscosity");
       iarg += 2;
     } else if (keyword == "density") {
       need(1, "density");
-      density = positive(iarg + 1, "density");
+      regime.density = positive(iarg + 1, "density");
       iarg += 2;
     } else if (keyword == "inertia") {
       need(1, "inertia");
-      if (strcmp(arg[iarg + 1], "none") != 0)
+      const std::string value = arg[iarg + 1];
+      if (value == "none")
+        regime.inertia = fluid::Inertia::none;
+      else if (value == "unsteady")
+        regime.inertia = fluid::Inertia::unsteady;
+      else if (value == "convective")
+        regime.inertia = fluid::Inertia::convective;
+      else
         error->all(FLERR, iarg + 1,
-                   "Fix rbc/fluid inertia value {} is not available; allowed: none", arg[iarg + 1]);
+                   "Unknown fix rbc/fluid inertia {}; allowed: none, unsteady, convective", value);
       iarg += 2;
     } else if (keyword == "scheme") {
       need(1, "scheme");
-      if (strcmp(arg[iarg + 1], "coupled") != 0)
-        error->all(FLERR, iarg + 1,
-                   "Fix rbc/fluid scheme value {} is not available; allowed: coupled",
-                   arg[iarg + 1]);
+      const std::string value = arg[iarg + 1];
+      if (value == "coupled")
+        regime.scheme = fluid::Scheme::coupled;
+      else if (value == "projection")
+        regime.scheme = fluid::Scheme::projection;
+      else
+        error->all(FLERR, iarg + 1, "Unknown fix rbc/fluid scheme {}; allowed: coupled, projection",
+                   value);
       iarg += 2;
     } else if (keyword == "wall") {
       need(1, "wall");
@@ -146,39 +160,64 @@ void FixRBCFluid::parse(int narg, char **arg)
     } else if (keyword == "body") {
       parse_vector(iarg + 1, narg, arg, "body", body);
       iarg += 4;
+    } else if (keyword == "mean") {
+      need(1, "mean");
+      if (!domain->zperiodic)
+        error->all(FLERR, iarg,
+                   "Fix rbc/fluid mean needs a triply periodic box: between plates the mean flow "
+                   "follows from them");
+      mean_given = true;
+      if (strcmp(arg[iarg + 1], "force") == 0) {
+        free_mean = true;
+        iarg += 2;
+      } else {
+        free_mean = false;
+        parse_vector(iarg + 1, narg, arg, "mean", mean);
+        iarg += 4;
+      }
     } else
       error->all(FLERR, iarg,
                  "Unknown fix rbc/fluid keyword {}; allowed: dx, grid, viscosity, density, "
-                 "inertia, scheme, wall, body",
+                 "inertia, scheme, wall, body, mean",
                  keyword);
   }
 
-  for (const auto *vector : {&lower, &upper, &body})
+  for (const auto *vector : {&lower, &upper, &body, &mean})
     for (const NumberOrVariable &component : *vector) varying = varying || component.is_variable();
   walls = !domain->zperiodic;
   if (walls && !(wall_given[0] && wall_given[1]))
     error->all(FLERR, "Fix rbc/fluid needs wall zlo and wall zhi where z is not periodic");
-  if (!walls && comm->me == 0)
+  if (!has_inertia() && regime.scheme == fluid::Scheme::projection)
+    error->all(FLERR,
+               "Fix rbc/fluid scheme projection needs inertia unsteady or convective: steady "
+               "flow has no step to split");
+  if (!has_inertia() && free_mean)
+    error->all(FLERR, "Fix rbc/fluid mean force needs inertia unsteady or convective: without "
+                      "inertia a net force has nothing to accelerate");
+  regime.hold_mean = mean_given ? !free_mean : !has_inertia();
+  if (!walls && regime.hold_mean && comm->me == 0)
     for (const NumberOrVariable &component : body)
       if (component.is_variable() || component.value(lmp) != 0) {
-        error->warning(FLERR, "Fix rbc/fluid body has no effect in a triply periodic box: a "
-                              "pressure gradient balances it");
+        error->warning(FLERR, "Fix rbc/fluid body has no effect in a triply periodic box whose "
+                              "mean velocity is held: a pressure gradient balances it");
         break;
       }
   if (target_spacing == 0 && cells[0] == 0) error->all(FLERR, "Fix rbc/fluid needs dx or grid");
   if (target_spacing > 0 && cells[0] > 0)
     error->all(FLERR, "Fix rbc/fluid takes either dx or grid, not both");
-  if (viscosity == 0) error->all(FLERR, "Fix rbc/fluid needs viscosity");
-  if (density == 0) error->all(FLERR, "Fix rbc/fluid needs density");
+  if (regime.viscosity == 0) error->all(FLERR, "Fix rbc/fluid needs viscosity");
+  if (regime.density == 0) error->all(FLERR, "Fix rbc/fluid needs density");
 }
 
 /* ----------------------------------------------------------------------
-   spacing as near to dx as a whole number of cells allows
+   spacing as near to dx as a whole number of cells allows; where the grid is transformed, not coarser, and of
+   numbers of cells without large prime factors
 ------------------------------------------------------------------------- */
 
 void FixRBCFluid::choose_grid()
 {
   if (target_spacing == 0) return;
+  bool changed = false;
   for (int d = 0; d < 3; ++d) {
     const double wanted = std::round(domain->prd[d] / target_spacing);
     const double largest = domain->prd[d] / MIN_CELLS;
@@ -188,7 +227,17 @@ void FixRBCFluid::choose_grid()
           "Fix rbc/fluid dx {} leaves {} cells in {}; at least {} are needed (dx at most {})",
           target_spacing, wanted, "xyz"[d], MIN_CELLS, largest);
     cells[d] = static_cast<int>(std::min<double>(wanted, MAXSMALLINT));
+    if (cells[d] > MAX_CELLS || (walls && d == 2)) continue;
+    cells[d] = fluid::fast_size(cells[d]);
+    changed = changed || cells[d] != wanted;
   }
+  if (changed && comm->me == 0)
+    utils::logmesg(
+        lmp,
+        "Fix rbc/fluid {}: grid of {} x {} x {} cells, spacing {:.6g} {:.6g} {:.6g}: dx {} "
+        "alone would give numbers of cells that are slow to transform\n",
+        id, cells[0], cells[1], cells[2], domain->prd[0] / cells[0], domain->prd[1] / cells[1],
+        domain->prd[2] / cells[2], target_spacing);
 }
 
 /* ----------------------------------------------------------------------
@@ -209,11 +258,12 @@ void FixRBCFluid::check_grid() const
 }
 
 /* ----------------------------------------------------------------------
-   a vertex leaves its subdomain by half the skin before atoms migrate, and within a step by half a cell more
+   without vertices none; a vertex leaves its subdomain by half the skin before atoms migrate, and within a step by half a cell more
 ------------------------------------------------------------------------- */
 
 int FixRBCFluid::layers_needed() const
 {
+  if (!driven) return 0;
   double layers = 0;
   for (int d = 0; d < 3; ++d)
     layers = std::max(layers, 0.5 * neighbor->skin / (domain->prd[d] / cells[d]) + 0.5);
@@ -224,11 +274,6 @@ int FixRBCFluid::layers_needed() const
 
 void FixRBCFluid::build_flow()
 {
-  fluid::Drive drive;
-  if (stokes_flow) {
-    measure();
-    drive = stokes_flow->drive;
-  }
   free_data();
   grid = std::make_unique<Grid3d>(lmp, world, cells[0], cells[1], cells[2]);
   int lo[3], hi[3], outlo[3], outhi[3];
@@ -247,17 +292,21 @@ void FixRBCFluid::build_flow()
   staggered.walls = walls;
 
   ghost_layers = layers_needed();
-  stokes_flow = std::make_unique<fluid::Flow>(staggered, fluid::Decomposition(world, brick),
-                                              ghost_layers, fluid::Regime{viscosity, density});
-  stokes_flow->drive = drive;
-  current = false;
+  auto flow = std::make_unique<fluid::Flow>(staggered, fluid::Decomposition(world, brick),
+                                            ghost_layers, regime);
+  if (current_flow) {
+    earlier_traffic = traffic();
+    flow->take_over(*current_flow);
+  }
+  current_flow = std::move(flow);
+  flow_changed();
 }
 
 /* ---------------------------------------------------------------------- */
 
 int FixRBCFluid::setmask()
 {
-  return FINAL_INTEGRATE;
+  return FINAL_INTEGRATE | POST_RUN;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -274,7 +323,7 @@ void FixRBCFluid::init()
                  "Fix rbc/fluid {}: the simulation box has changed since the fix was defined", id);
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix rbc/fluid cannot be used with run_style respa");
-  for (const auto *vector : {&lower, &upper, &body})
+  for (const auto *vector : {&lower, &upper, &body, &mean})
     for (const auto &component : *vector) component.check(lmp, "fix rbc/fluid");
 
   std::string driver;
@@ -293,36 +342,80 @@ void FixRBCFluid::init()
 
 void FixRBCFluid::setup(int /*vflag*/)
 {
-  if (!driven) solve_alone();
+  first_traffic = traffic();
+  first_solve = solves();
+  first_step = update->ntimestep;
+  if (driven) return;
+  drive_now();
+  if (!has_inertia()) advance_alone();
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixRBCFluid::final_integrate()
 {
-  if (!driven && (varying || !current)) solve_alone();
+  if (driven) return;
+  if (has_inertia()) {
+    drive_middle();
+    current_flow->start_step(update->dt);
+    drive_end();
+    current_flow->finish_step();
+    flow_changed();
+  } else if (varying) {
+    drive_now();
+    advance_alone();
+  }
 }
 
 /* ----------------------------------------------------------------------
-   flow without immersed boundaries: steady unless a variable drives it
+   steady flow without immersed boundaries
 ------------------------------------------------------------------------- */
 
-void FixRBCFluid::solve_alone()
+void FixRBCFluid::advance_alone()
 {
-  update_drive(false);
-  stokes_flow->clear_force();
-  stokes_flow->solve();
-  stokes_flow->share_velocity();
-  solved();
+  current_flow->solve();
+  flow_changed();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCFluid::flow_changed()
+{
+  ++version;
+  if (regime.inertia == fluid::Inertia::convective) check_courant();
 }
 
 /* ----------------------------------------------------------------------
-   variables know the end of a step only: in its middle they count as the mean of its ends
+   explicit advection: the fluid may not cross more than a cell in a step
 ------------------------------------------------------------------------- */
 
-void FixRBCFluid::update_drive(bool middle)
+void FixRBCFluid::check_courant()
 {
-  if (!varying && drive_known) return;
+  const auto fastest =
+      fluid::fastest_cell(current_flow->grid(), current_flow->brick(), current_flow->velocity());
+  const double courant = fastest.rate * update->dt;
+  if (courant <= MAX_COURANT) return;
+  double x[3];
+  for (int d = 0; d < 3; ++d)
+    x[d] = domain->boxlo[d] + (fastest.cell[d] + 0.5) * current_flow->grid().spacing[d];
+  if (std::isfinite(courant))
+    error->one(FLERR,
+               "Fix rbc/fluid {}: the fluid at ({:.6g}, {:.6g}, {:.6g}) crosses {:.3g} cells in a "
+               "step at step {} (CFL above {}; timestep too large for inertia convective)",
+               id, x[0], x[1], x[2], courant, update->ntimestep, MAX_COURANT);
+  error->one(FLERR,
+             "Fix rbc/fluid {}: the velocity of the fluid at ({:.6g}, {:.6g}, {:.6g}) is not a "
+             "number at step {}",
+             id, x[0], x[1], x[2], update->ntimestep);
+}
+
+/* ----------------------------------------------------------------------
+   what drives the flow at the end of the step, or now: variables know no other times
+------------------------------------------------------------------------- */
+
+fluid::Drive FixRBCFluid::evaluate_drive()
+{
+  if (!varying && drive_known) return end_of_step;
   drive_known = true;
   modify->clearstep_compute();
   fluid::Drive now;
@@ -330,36 +423,58 @@ void FixRBCFluid::update_drive(bool middle)
     now.walls.lower[d] = lower[d].value(lmp);
     now.walls.upper[d] = upper[d].value(lmp);
     now.body[d] = body[d].value(lmp) * force->ftm2v;
+    now.mean[d] = mean[d].value(lmp);
   }
   modify->addstep_compute(update->ntimestep + 1);
 
-  for (const auto *vector : {&now.walls.lower, &now.walls.upper, &now.body})
+  for (const auto *vector : {&now.walls.lower, &now.walls.upper, &now.body, &now.mean})
     for (double component : *vector)
       if (!std::isfinite(component))
-        error->all(FLERR,
-                   "Fix rbc/fluid {}: a plate velocity or body force is not a number at step {}",
-                   id, update->ntimestep);
+        error->all(
+            FLERR,
+            "Fix rbc/fluid {}: a plate velocity, body force or mean velocity is not a number "
+            "at step {}",
+            id, update->ntimestep);
+  return now;
+}
 
-  fluid::Drive &drive = stokes_flow->drive;
-  if (middle)
-    for (int d = 0; d < 3; ++d) {
-      now.walls.lower[d] = 0.5 * (now.walls.lower[d] + drive.walls.lower[d]);
-      now.walls.upper[d] = 0.5 * (now.walls.upper[d] + drive.walls.upper[d]);
-      now.body[d] = 0.5 * (now.body[d] + drive.body[d]);
-    }
-  drive = now;
+void FixRBCFluid::drive_now()
+{
+  current_flow->drive = end_of_step = evaluate_drive();
+}
+
+/* ----------------------------------------------------------------------
+   in the middle of a step the drive is the mean of that at its ends
+------------------------------------------------------------------------- */
+
+void FixRBCFluid::drive_middle()
+{
+  const fluid::Drive start = end_of_step;
+  end_of_step = evaluate_drive();
+  fluid::Drive &middle = current_flow->drive;
+  for (int d = 0; d < 3; ++d) {
+    middle.walls.lower[d] = 0.5 * (start.walls.lower[d] + end_of_step.walls.lower[d]);
+    middle.walls.upper[d] = 0.5 * (start.walls.upper[d] + end_of_step.walls.upper[d]);
+    middle.body[d] = 0.5 * (start.body[d] + end_of_step.body[d]);
+    middle.mean[d] = 0.5 * (start.mean[d] + end_of_step.mean[d]);
+  }
+}
+
+void FixRBCFluid::drive_end()
+{
+  current_flow->drive = end_of_step;
 }
 
 /* ---------------------------------------------------------------------- */
 
 double FixRBCFluid::smallest_spacing() const
 {
-  const auto &h = stokes_flow->grid().spacing;
+  const auto &h = current_flow->grid().spacing;
   return std::min({h[0], h[1], h[2]});
 }
 
 /* ----------------------------------------------------------------------
-   load balancing moved the subdomains; steady flow has no history to carry over and is solved anew in this step
+   load balancing moved the subdomains
 ------------------------------------------------------------------------- */
 
 void FixRBCFluid::reset_grid()
@@ -371,9 +486,9 @@ void FixRBCFluid::reset_grid()
 
 const fluid::FlowMeasures &FixRBCFluid::measure()
 {
-  if (measured_solves != nsolves) {
-    measures = fluid::measure(*stokes_flow);
-    measured_solves = nsolves;
+  if (measured_version != version) {
+    measures = fluid::measure(*current_flow);
+    measured_version = version;
   }
   return measures;
 }
@@ -384,14 +499,14 @@ const fluid::FlowMeasures &FixRBCFluid::measure()
 
 double FixRBCFluid::compute_scalar()
 {
-  return measure().kinetic_energy_per_density * density * force->mvv2e;
+  return measure().kinetic_energy_per_density * regime.density * force->mvv2e;
 }
 
 /* ---------------------------------------------------------------------- */
 
 double FixRBCFluid::compute_vector(int n)
 {
-  if (n == 11) return static_cast<double>(nsolves);
+  if (n == 11) return static_cast<double>(solves());
   const fluid::FlowMeasures &m = measure();
   const double to_pressure = 1.0 / force->ftm2v;
   if (n < 3) return m.lower_traction[n] * to_pressure;
@@ -432,7 +547,7 @@ int FixRBCFluid::get_griddata_by_name(int igrid, const std::string &name, int &n
 void *FixRBCFluid::get_griddata_by_index(int index)
 {
   if (index < 0 || index >= NDATA) return nullptr;
-  const fluid::Box &box = stokes_flow->brick();
+  const fluid::Box &box = current_flow->brick();
   const auto &[lo, hi] = box;
   if (!data[index]) {
     if (index == PRESSURE) {
@@ -446,53 +561,56 @@ void *FixRBCFluid::get_griddata_by_index(int index)
                                    "rbc/fluid:data");
       data[index] = v;
     }
-    data_solves[index] = -1;
+    data_version[index] = -1;
   }
-  if (data_solves[index] == nsolves) return data[index];
-  data_solves[index] = nsolves;
+  if (data_version[index] == version) return data[index];
+  data_version[index] = version;
 
   if (index == PRESSURE) {
-    const auto pressure = stokes_flow->pressure()[0];
+    const auto pressure = current_flow->pressure()[0];
     const double to_pressure = 1.0 / force->ftm2v;
     auto p = static_cast<double ***>(data[index]);
     for (int k = lo[2]; k < hi[2]; ++k)
       for (int j = lo[1]; j < hi[1]; ++j)
         for (int i = lo[0]; i < hi[0]; ++i) p[k][j][i] = pressure(i, j, k) * to_pressure;
-  } else if (index == VELOCITY)
-    fill_velocity_or_force(static_cast<double ****>(data[index]), stokes_flow->velocity(),
-                           {0, 0, 0}, 1.0);
-  else {
-    stokes_flow->share_force();
-    fill_velocity_or_force(static_cast<double ****>(data[index]), stokes_flow->force(),
-                           stokes_flow->drive.body, 1.0 / force->ftm2v);
+  } else if (index == VELOCITY) {
+    current_flow->share_velocity();
+    fill_centred(static_cast<double ****>(data[index]), &current_flow->velocity(), {0, 0, 0}, 1.0);
+  } else {
+    const bool spread = current_flow->has_force();
+    if (spread) current_flow->share_force();
+    fill_centred(static_cast<double ****>(data[index]), spread ? &current_flow->force() : nullptr,
+                 current_flow->drive.body, 1.0 / force->ftm2v);
   }
   return data[index];
 }
 
 /* ----------------------------------------------------------------------
-   faces to centres
+   faces to centres, plus a uniform vector
 ------------------------------------------------------------------------- */
 
-void FixRBCFluid::fill_velocity_or_force(double ****centred, const fluid::VectorField &field,
-                                         const std::array<double, 3> &uniform, double scale)
+void FixRBCFluid::fill_centred(double ****centred, const fluid::VectorField *field,
+                               const std::array<double, 3> &uniform, double scale)
 {
-  const auto &[lo, hi] = stokes_flow->brick();
-  const auto u = field.views();
+  const auto &[lo, hi] = current_flow->brick();
   for (int k = lo[2]; k < hi[2]; ++k)
     for (int j = lo[1]; j < hi[1]; ++j)
-      for (int i = lo[0]; i < hi[0]; ++i) {
-        centred[k][j][i][0] = scale * (0.5 * (u[0](i, j, k) + u[0](i + 1, j, k)) + uniform[0]);
-        centred[k][j][i][1] = scale * (0.5 * (u[1](i, j, k) + u[1](i, j + 1, k)) + uniform[1]);
-        centred[k][j][i][2] = scale * (0.5 * (u[2](i, j, k) + u[2](i, j, k + 1)) + uniform[2]);
-      }
+      for (int i = lo[0]; i < hi[0]; ++i)
+        for (int c = 0; c < 3; ++c) {
+          double value = uniform[c];
+          if (field)
+            value += 0.5 *
+                     ((*field)[c](i, j, k) + (*field)[c](i + (c == 0), j + (c == 1), k + (c == 2)));
+          centred[k][j][i][c] = scale * value;
+        }
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixRBCFluid::free_data()
 {
-  if (!stokes_flow) return;
-  const auto &lo = stokes_flow->brick().lo;
+  if (!current_flow) return;
+  const auto &lo = current_flow->brick().lo;
   for (int index = 0; index < NDATA; ++index) {
     if (!data[index]) continue;
     if (index == PRESSURE) {
@@ -510,9 +628,89 @@ void FixRBCFluid::free_data()
 
 double FixRBCFluid::memory_usage()
 {
-  double bytes = static_cast<double>(stokes_flow->bytes());
-  const double cells_here = static_cast<double>(stokes_flow->brick().size());
+  double bytes = static_cast<double>(current_flow->bytes());
+  const double cells_here = static_cast<double>(current_flow->brick().size());
   for (int index = 0; index < NDATA; ++index)
     if (data[index]) bytes += cells_here * (index == PRESSURE ? 1 : 3) * sizeof(double);
   return bytes;
+}
+
+/* ----------------------------------------------------------------------
+   the fluid's history: numbers that tell what it belongs to, then that of the library
+------------------------------------------------------------------------- */
+
+static constexpr int RESTART_HEAD = 6;
+
+void FixRBCFluid::write_restart(FILE *fp)
+{
+  const double bytes = sizeof(double) * (RESTART_HEAD + double(current_flow->history_length()));
+  if (bytes > MAXSMALLINT)
+    error->all(FLERR,
+               "Fix rbc/fluid {}: {} x {} x {} cells with their history do not fit into a "
+               "restart file",
+               id, cells[0], cells[1], cells[2]);
+  const std::vector<double> history = current_flow->history();
+  if (comm->me != 0) return;
+  const double head[RESTART_HEAD] = {double(cells[0]),      double(cells[1]),
+                                     double(cells[2]),      double(regime.inertia),
+                                     double(regime.scheme), double(solves())};
+  const int size = static_cast<int>(bytes);
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(head, sizeof(double), RESTART_HEAD, fp);
+  fwrite(history.data(), sizeof(double), history.size(), fp);
+}
+
+void FixRBCFluid::restart(char *buffer)
+{
+  const auto head = reinterpret_cast<const double *>(buffer);
+  const double expected[5] = {double(cells[0]), double(cells[1]), double(cells[2]),
+                              double(regime.inertia), double(regime.scheme)};
+  if (!std::equal(expected, expected + 5, head))
+    error->all(FLERR,
+               "Fix rbc/fluid {}: the restart file holds this flow on a grid of {} {} {} cells, or "
+               "with another inertia or scheme; define the fix as it was, or use another fix ID to "
+               "start from rest",
+               id, head[0], head[1], head[2]);
+  earlier_solves = static_cast<bigint>(head[5]);
+  current_flow->restore(head + RESTART_HEAD);
+  flow_changed();
+}
+
+/* ---------------------------------------------------------------------- */
+
+fluid::Traffic FixRBCFluid::traffic() const
+{
+  const fluid::Traffic now = current_flow->traffic();
+  return {earlier_traffic.messages + now.messages, earlier_traffic.bytes + now.bytes};
+}
+
+/* ----------------------------------------------------------------------
+   what the flow took since the start of the run; collective
+------------------------------------------------------------------------- */
+
+std::string FixRBCFluid::costs(bigint steps) const
+{
+  const fluid::Traffic now = traffic();
+  double sums[3] = {double(now.messages - first_traffic.messages),
+                    double(now.bytes - first_traffic.bytes), double(current_flow->bytes())};
+  MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, world);
+  const double each = 1.0 / (double(steps > 0 ? steps : 1) * comm->nprocs);
+  return fmt::format(
+      "Fluid: {:.4g} messages and {:.4g} bytes per step and MPI task, {:.4g} bytes of "
+      "memory per cell\n",
+      sums[0] * each, sums[1] * each, sums[2] / current_flow->grid().size());
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCFluid::post_run()
+{
+  if (driven) return;
+  const bigint steps = update->ntimestep - first_step;
+  const std::string text = fmt::format(
+      "\nUSER-RBC step cost: {} solves in {} steps, no vertices, {} fluid cells, {} MPI "
+      "task{}\n{}",
+      solves() - first_solve, steps, current_flow->grid().size(), comm->nprocs,
+      comm->nprocs > 1 ? "s" : "", costs(steps));
+  if (comm->me == 0) utils::logmesg(lmp, text);
 }

@@ -23,11 +23,14 @@ class FixRBCFluid : public Fix {
   int setmask() override;
   void init() override;
   void setup(int) override;
+  void post_run() override;
   void final_integrate() override;
   void reset_grid() override;
   double compute_scalar() override;
   double compute_vector(int) override;
   double memory_usage() override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
 
   int get_grid_by_name(const std::string &, int &) override;
   void *get_grid_by_index(int) override;
@@ -36,15 +39,15 @@ class FixRBCFluid : public Fix {
 
   // used by fix rbc/ib, which drives the flow
 
-  fluid::Flow &flow() { return *stokes_flow; }
-  void update_drive(bool middle);
-  void solved()
-  {
-    ++nsolves;
-    current = true;
-  }
-  bigint solves() const { return nsolves; }
+  fluid::Flow &flow() { return *current_flow; }
+  bool has_inertia() const { return regime.inertia != fluid::Inertia::none; }
+  void drive_now();
+  void drive_middle();
+  void drive_end();
+  void flow_changed();
+  bigint solves() const { return current_flow->solves() + earlier_solves; }
   double smallest_spacing() const;
+  std::string costs(bigint steps) const;
 
  private:
   enum Data { VELOCITY, PRESSURE, FORCE, NDATA };
@@ -52,24 +55,28 @@ class FixRBCFluid : public Fix {
   double box_lo[3], box_hi[3];    // when the grid was chosen
   std::array<int, 3> cells{};
   double target_spacing = 0;
-  double viscosity = 0, density = 0;
+  fluid::Regime regime;
   bool walls = false;
-  std::array<NumberOrVariable, 3> lower, upper, body;
+  std::array<NumberOrVariable, 3> lower, upper, body, mean;
 
   std::unique_ptr<class Grid3d> grid;
-  std::unique_ptr<fluid::Flow> stokes_flow;
+  std::unique_ptr<fluid::Flow> current_flow;
   int ghost_layers = -1;
   bool driven = false;     // by a fix rbc/ib
   bool varying = false;    // a variable drives the flow
   bool drive_known = false;
-  bigint nsolves = 0;
-  bool current = false;    // the flow has been solved on this decomposition
+  fluid::Drive end_of_step;
+  bigint earlier_solves = 0;    // before a restart
+  bigint version = 0;           // of the velocity
+  fluid::Traffic earlier_traffic,
+      first_traffic;    // on earlier decompositions, at the start of the run
+  bigint first_step = 0, first_solve = 0;
 
   fluid::FlowMeasures measures;
-  bigint measured_solves = -1;
+  bigint measured_version = -1;
 
   std::array<void *, NDATA> data{};    // cell-centred, allocated when first asked for
-  std::array<bigint, NDATA> data_solves{};
+  std::array<bigint, NDATA> data_version{};
 
   void parse(int, char **);
   void parse_vector(int, int, char **, const char *, std::array<NumberOrVariable, 3> &);
@@ -77,10 +84,12 @@ class FixRBCFluid : public Fix {
   void check_grid() const;
   int layers_needed() const;
   void build_flow();
-  void solve_alone();
+  void advance_alone();
+  void check_courant();
+  fluid::Drive evaluate_drive();
+  fluid::Traffic traffic() const;
   void free_data();
-  void fill_velocity_or_force(double ****, const fluid::VectorField &,
-                              const std::array<double, 3> &, double);
+  void fill_centred(double ****, const fluid::VectorField *, const std::array<double, 3> &, double);
   const fluid::FlowMeasures &measure();
 };
 

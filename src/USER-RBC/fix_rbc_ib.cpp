@@ -9,7 +9,9 @@
 #include "error.h"
 #include "fix_rbc_fluid.h"
 #include "fix_rbc_membrane.h"
+#include "fix_store_atom.h"
 #include "force.h"
+#include "group.h"
 #include "improper.h"
 #include "kspace.h"
 #include "modify.h"
@@ -31,6 +33,7 @@ FixRBCIB::FixRBCIB(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix rbc/ib", error);
   fluid_id = arg[3];
   int iarg = 4;
+  bool direct_options = false;
   while (iarg < narg) {
     const std::string keyword = arg[iarg];
     if (iarg + 1 >= narg) utils::missing_cmd_args(FLERR, "fix rbc/ib " + keyword, error);
@@ -51,14 +54,56 @@ FixRBCIB::FixRBCIB(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
         error->all(FLERR, iarg + 1, "Unknown fix rbc/ib integrator {}; allowed: euler, midpoint",
                    value);
     } else if (keyword == "scheme") {
-      if (value != "elastic")
-        error->all(FLERR, iarg + 1, "Fix rbc/ib scheme {} is not available; allowed: elastic",
+      if (value == "elastic")
+        scheme = Scheme::ELASTIC;
+      else if (value == "direct")
+        scheme = Scheme::DIRECT;
+      else
+        error->all(FLERR, iarg + 1, "Unknown fix rbc/ib scheme {}; allowed: elastic, direct",
                    value);
+    } else if (keyword == "tol") {
+      direct.tolerance = utils::numeric(FLERR, value, false, lmp);
+      if (!(direct.tolerance > 0 && direct.tolerance < 1))
+        error->all(FLERR, iarg + 1, "Fix rbc/ib tol value {} must be between 0 and 1", value);
+      direct_options = true;
+    } else if (keyword == "maxiter") {
+      direct.max_solves = utils::inumeric(FLERR, value, false, lmp);
+      if (direct.max_solves < 1)
+        error->all(FLERR, iarg + 1, "Fix rbc/ib maxiter value {} must be > 0", value);
+      direct_options = true;
     } else
-      error->all(FLERR, iarg, "Unknown fix rbc/ib keyword {}; allowed: kernel, scheme, integrator",
+      error->all(FLERR, iarg,
+                 "Unknown fix rbc/ib keyword {}; allowed: kernel, scheme, integrator, tol, maxiter",
                  keyword);
     iarg += 2;
   }
+  if (direct_options && scheme != Scheme::DIRECT)
+    error->all(FLERR, "Fix rbc/ib tol and maxiter need scheme direct");
+
+  if (scheme == Scheme::DIRECT) {
+    restart_global = 1;
+    vector_flag = 1;
+    size_vector = 4;
+    global_freq = 1;
+    extvector = 0;
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+FixRBCIB::~FixRBCIB()
+{
+  if (store && modify->nfix) modify->delete_fix(store_id);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCIB::post_constructor()
+{
+  if (scheme != Scheme::DIRECT) return;
+  store_id = std::string(id) + "_STORE_MOTION";
+  store = dynamic_cast<FixStoreAtom *>(
+      modify->add_fix(fmt::format("{} {} STORE/ATOM {} 0 0 1", store_id, group->names[igroup], 6)));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -78,6 +123,16 @@ void FixRBCIB::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix rbc/ib cannot be used with run_style respa");
   if (update->whichflag == 2) error->all(FLERR, "Fix rbc/ib cannot be used with minimize");
+  if (scheme == Scheme::DIRECT) {
+    if (!fluid_fix->has_inertia())
+      error->all(FLERR,
+                 "Fix rbc/ib {} scheme direct needs a fluid with inertia: fix rbc/fluid {} "
+                 "inertia unsteady or convective",
+                 id, fluid_id);
+    if (fluid_fix->flow().regime().scheme != fluid::Scheme::coupled)
+      error->all(FLERR, "Fix rbc/ib {} scheme direct needs fix rbc/fluid {} scheme coupled", id,
+                 fluid_id);
+  }
 
   membranes.clear();
   keepers.clear();
@@ -133,54 +188,68 @@ void FixRBCIB::post_neighbor()
 
 void FixRBCIB::setup(int /*vflag*/)
 {
-  fluid_fix->update_drive(false);
-  update_velocities(Stage::START);
+  fluid_fix->drive_now();
+  first_step = update->ntimestep;
+  unconverged = 0;
+  if (!fluid_fix->has_inertia())
+    update_velocities(Stage::START);
+  else if (scheme == Scheme::ELASTIC && fluid_fix->flow().steps() == 0)
+    interpolate(Stage::START);
   for (rbc::Stopwatch *watch : {&spreading, &solving, &interpolating, &exchanging}) watch->reset();
   for (FixRBCMembrane *membrane : membranes) membrane->stopwatch.reset();
   first_solve = fluid_fix->solves();
-  first_step = update->ntimestep;
 }
 
 /* ----------------------------------------------------------------------
-   velocities hold those of the flow at the start of the step
+   velocities hold those of the flow at the start of the step; with inertia, those in the middle of the last step
+   (fluid velocities at the end of a step may ring, see Crank-Nicolson; good to second order for half a step)
 ------------------------------------------------------------------------- */
 
 void FixRBCIB::initial_integrate(int /*vflag*/)
 {
-  if (late_forces && update->ntimestep == first_step + 1) update_velocities(Stage::START);
+  const bool steady = !fluid_fix->has_inertia();
+  if (steady && late_forces && update->ntimestep == first_step + 1) update_velocities(Stage::START);
 
-  double *const x = members.empty() ? nullptr : atom->x[0];
-  const double dt = update->dt;
+  const double *const x = members.empty() ? nullptr : atom->x[0];
   const int count = static_cast<int>(members.size());
-
-  const auto move = [&](double span) {
-    const double *const v = members.empty() ? nullptr : atom->v[0];
-    for (int n = 0; n < count; ++n)
-      for (int d = 0; d < 3; ++d)
-        x[3 * members[n] + d] = start_of_step[3 * n + d] + span * v[3 * members[n] + d];
-  };
-
   for (int n = 0; n < count; ++n)
     for (int d = 0; d < 3; ++d) start_of_step[3 * n + d] = x[3 * members[n] + d];
+
   if (integrator == Integrator::MIDPOINT) {
-    move(0.5 * dt);
+    move(0.5 * update->dt);
     check_positions();
-    fluid_fix->update_drive(true);
+    fluid_fix->drive_middle();
     exchanging.start();
     comm->forward_comm();
     exchanging.stop();
     recompute_forces();
-    update_velocities(Stage::MIDDLE);
-  }
-  move(dt);
+    if (steady) update_velocities(Stage::MIDDLE);
+  } else if (!steady)
+    fluid_fix->drive_middle();
+  if (!steady) step_fluid();
+
+  move(update->dt);
   check_positions();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCIB::move(double span)
+{
+  double *const x = members.empty() ? nullptr : atom->x[0];
+  const double *const v = members.empty() ? nullptr : atom->v[0];
+  const int count = static_cast<int>(members.size());
+  for (int n = 0; n < count; ++n)
+    for (int d = 0; d < 3; ++d)
+      x[3 * members[n] + d] = start_of_step[3 * n + d] + span * v[3 * members[n] + d];
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixRBCIB::final_integrate()
 {
-  fluid_fix->update_drive(false);
+  if (fluid_fix->has_inertia()) return;
+  fluid_fix->drive_now();
   update_velocities(Stage::START);
 }
 
@@ -214,38 +283,172 @@ void FixRBCIB::recompute_forces()
 
 void FixRBCIB::update_velocities(Stage stage)
 {
-  fluid::Flow &flow = fluid_fix->flow();
-  const fluid::Markers markers{static_cast<int>(members.size()), members.data()};
-  const double *x = members.empty() ? nullptr : atom->x[0];
-  const double *f = members.empty() ? nullptr : atom->f[0];
-  double *v = members.empty() ? nullptr : atom->v[0];
+  spread_forces();
 
+  solving.start();
+  fluid_fix->flow().solve();
+  fluid_fix->flow_changed();
+  solving.stop();
+
+  interpolate(stage);
+}
+
+/* ----------------------------------------------------------------------
+   the fluid's step, with the atoms' forces and velocities in its middle
+------------------------------------------------------------------------- */
+
+void FixRBCIB::step_fluid()
+{
+  fluid::Flow &flow = fluid_fix->flow();
+  if (scheme == Scheme::ELASTIC) {
+    spread_forces();
+    solving.start();
+    flow.start_step(update->dt);
+    solving.stop();
+    interpolate(Stage::START);
+  } else {
+    solving.start();
+    couple_masses();
+    solving.stop();
+    for (FixRBCMembrane *membrane : keepers) membrane->keep_volume(update->dt, true);
+    check_velocities();
+  }
+  solving.start();
+  fluid_fix->drive_end();
+  flow.finish_step();
+  fluid_fix->flow_changed();
+  solving.stop();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCIB::spread_forces()
+{
+  fluid::Flow &flow = fluid_fix->flow();
   spreading.start();
   flow.clear_force();
-  const int outside = flow.spread(kernel, markers, x, f, force->ftm2v);
-  if (outside >= 0)
-    stop(outside, "left the fluid its MPI task holds (reneighboring too rare, see neigh_modify)");
+  const int outside = flow.spread(kernel, markers(), rows(atom->x), rows(atom->f), force->ftm2v);
+  if (outside >= 0) stop_outside(outside);
   spreading.stop();
 
   exchanging.start();
   flow.gather_force();
   exchanging.stop();
+}
 
-  solving.start();
-  flow.solve();
-  fluid_fix->solved();
-  solving.stop();
+/* ----------------------------------------------------------------------
+   atoms take the velocity of the fluid
+------------------------------------------------------------------------- */
 
+void FixRBCIB::interpolate(Stage stage)
+{
+  fluid::Flow &flow = fluid_fix->flow();
   exchanging.start();
   flow.share_velocity();
   exchanging.stop();
 
   interpolating.start();
-  flow.interpolate(kernel, markers, x, v);
+  flow.interpolate(kernel, markers(), rows(atom->x), rows(atom->v));
   interpolating.stop();
 
   for (FixRBCMembrane *membrane : keepers) membrane->keep_volume(update->dt, stage == Stage::START);
   check_velocities();
+}
+
+/* ----------------------------------------------------------------------
+   scheme direct: the acceleration of the masses by a backward difference of second order over the velocities in the
+   middle of this and the last two steps; over fewer at first, from the atoms' own velocities on
+------------------------------------------------------------------------- */
+
+void FixRBCIB::couple_masses()
+{
+  const double dt = update->dt;
+  double **const history = store->astore;
+  const std::size_t numbers = 3 * static_cast<std::size_t>(atom->nlocal);
+  for (auto *vector : {&applied, &target, &inertial}) vector->resize(numbers);
+  resistance.resize(atom->nlocal);
+
+  const double span = levels == 0 ? 0.5 * dt : levels == 1 ? dt : 0.5 * (dt + last_dt);
+  const double r = span / (levels > 1 ? last_span : span);
+  const double own = levels > 1 ? (1 + 2 * r) / (1 + r) : 1;    // coefficients, times span, of
+  const double last = levels > 1 ? 1 + r : 1;                   // the three velocities
+  const double older = levels > 1 ? r * r / (1 + r) : 0;
+  for (int i : members) {
+    const double mass = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
+    resistance[i] = mass * own / span;
+    for (int d = 0; d < 3; ++d) {
+      target[3 * i + d] = (last * atom->v[i][d] - older * history[i][d]) / own;
+      applied[3 * i + d] = atom->f[i][d] * force->ftm2v;
+      inertial[3 * i + d] = history[i][3 + d];
+      history[i][d] = atom->v[i][d];
+    }
+  }
+
+  const auto outcome =
+      direct.start_step(fluid_fix->flow(), dt,
+                        {kernel, markers(), rows(atom->x), applied.data(), resistance.data(),
+                         target.data(), inertial.data(), rows(atom->v), atom->nlocal});
+  if (outcome.outside >= 0) stop_outside(outcome.outside);
+  last_error = outcome.error;
+  if (!(outcome.error <= direct.tolerance)) ++unconverged;
+
+  for (double &sum : exerted) sum = 0;
+  for (int i : members)
+    for (int d = 0; d < 3; ++d) {
+      history[i][3 + d] = inertial[3 * i + d];
+      exerted[d] += applied[3 * i + d] + inertial[3 * i + d];
+    }
+  levels = std::min(levels + 1, 2);
+  last_dt = dt;
+  last_span = span;
+}
+
+/* ---------------------------------------------------------------------- */
+
+fluid::Markers FixRBCIB::markers() const
+{
+  return {static_cast<int>(members.size()), members.data()};
+}
+
+double *FixRBCIB::rows(double **array) const
+{
+  return members.empty() ? nullptr : array[0];
+}
+
+void FixRBCIB::stop_outside(int i) const
+{
+  stop(i, "left the fluid its MPI task holds (reneighboring too rare, see neigh_modify)");
+}
+
+/* ----------------------------------------------------------------------
+   scheme direct: 1-3 force of the atoms on the fluid, 4 error of the coupling in the last step
+------------------------------------------------------------------------- */
+
+double FixRBCIB::compute_vector(int n)
+{
+  if (n == 3) return last_error;
+  double sum = exerted[n] / force->ftm2v;
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, world);
+  return sum;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCIB::write_restart(FILE *fp)
+{
+  if (comm->me != 0) return;
+  const double state[3] = {double(levels), last_dt, last_span};
+  const int size = sizeof(state);
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(state, sizeof(double), 3, fp);
+}
+
+void FixRBCIB::restart(char *buffer)
+{
+  const auto state = reinterpret_cast<const double *>(buffer);
+  levels = static_cast<int>(state[0]);
+  last_dt = state[1];
+  last_span = state[2];
 }
 
 /* ----------------------------------------------------------------------
@@ -304,11 +507,12 @@ void FixRBCIB::post_run()
   MPI_Allreduce(MPI_IN_PLACE, seconds, 5, MPI_DOUBLE, MPI_SUM, world);
   bigint mine = static_cast<bigint>(members.size()), vertices;
   MPI_Allreduce(&mine, &vertices, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  const bigint steps = update->ntimestep - first_step;
+  const std::string costs = fluid_fix->costs(steps);
   if (comm->me != 0) return;
 
   const double cells = static_cast<double>(fluid_fix->flow().grid().size());
   const double sum = seconds[0] + seconds[1] + seconds[2] + seconds[3] + seconds[4];
-  const bigint steps = update->ntimestep - first_step;
   std::string text =
       fmt::format("\nUSER-RBC step cost: {} solves in {} steps, {} vertices, {:.0f} fluid cells, "
                   "{} MPI task{}\n"
@@ -322,7 +526,10 @@ void FixRBCIB::post_run()
         "{:<11} | {:12.5g} | {:9.4g} | {:7.4g} | {:6.2f}\n", n < 5 ? names[n] : "Total", each,
         vertices > 0 ? each / vertices * 1e6 : 0.0, each / cells * 1e9, 100 * each * solves / sum);
   }
-  utils::logmesg(lmp, text);
+  utils::logmesg(lmp, text + costs);
+  if (unconverged > 0)
+    error->warning(FLERR, "Fix rbc/ib {} reached its maxiter of {} in {} steps", id,
+                   direct.max_solves, unconverged);
 }
 
 /* ---------------------------------------------------------------------- */

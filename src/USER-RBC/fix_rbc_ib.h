@@ -8,6 +8,7 @@ FixStyle(rbc/ib,FixRBCIB);
 #define LMP_FIX_RBC_IB_H
 
 #include "coupling.h"
+#include "direct_forcing.h"
 #include "fix.h"
 #include "stopwatch.h"
 
@@ -19,6 +20,8 @@ namespace LAMMPS_NS {
 class FixRBCIB : public Fix {
  public:
   FixRBCIB(class LAMMPS *, int, char **);
+  ~FixRBCIB() override;
+  void post_constructor() override;
   int setmask() override;
   void init() override;
   void setup(int) override;
@@ -27,16 +30,21 @@ class FixRBCIB : public Fix {
   void initial_integrate(int) override;
   void final_integrate() override;
   void post_run() override;
+  double compute_vector(int) override;
   double memory_usage() override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
 
   const std::string &fluid() const { return fluid_id; }    // ID of the fix rbc/fluid it drives
 
  private:
   enum class Integrator { EULER, MIDPOINT };
+  enum class Scheme { ELASTIC, DIRECT };
 
   std::string fluid_id;
   fluid::KernelKind kernel = fluid::KernelKind::peskin4;
   Integrator integrator = Integrator::MIDPOINT;
+  Scheme scheme = Scheme::ELASTIC;
 
   class FixRBCFluid *fluid_fix = nullptr;
   std::vector<class FixRBCMembrane *> membranes, keepers;
@@ -48,13 +56,34 @@ class FixRBCIB : public Fix {
   bool late_forces =
       false;    // a fix defined after this one adds forces, which setup() does not see
 
+  // scheme direct: markers with mass
+
+  fluid::DirectForcing direct;
+  std::string store_id;
+  class FixStoreAtom *store =
+      nullptr;       // velocity in the middle of the step before the last, inertial force
+  int levels = 0;    // of these velocities that are known
+  double last_dt = 0, last_span = 0;    // between the middles of steps
+  std::vector<double> applied, resistance, target, inertial;
+  bigint unconverged = 0;
+  double last_error = 0;
+  double exerted[3] = {0, 0, 0};    // by this task's atoms on the fluid
+
   enum class Stage { START, MIDDLE };
 
+  void move(double);
   void update_velocities(Stage);
+  void spread_forces();
+  void interpolate(Stage);
+  void step_fluid();
+  void couple_masses();
   void recompute_forces();
   void check_moves_all(const Fix *) const;
   void check_positions() const;
   void check_velocities() const;
+  fluid::Markers markers() const;
+  double *rows(double **) const;
+  [[noreturn]] void stop_outside(int) const;
   [[noreturn]] void stop(int, const std::string &) const;
 };
 

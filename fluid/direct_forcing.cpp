@@ -1,0 +1,108 @@
+#include "direct_forcing.h"
+
+#include <cmath>
+
+namespace fluid {
+
+namespace {
+
+template <typename Visit> void for_each_number(const Markers &markers, Visit visit)
+{
+  for (int n = 0; n < markers.count; ++n)
+    for (int d = 0; d < 3; ++d) visit(markers.index[n], 3 * std::size_t(markers.index[n]) + d);
+}
+
+template <std::size_t N> void sum_over_ranks(std::array<double, N> &values, const Flow &flow)
+{
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), N, MPI_DOUBLE, MPI_SUM, flow.decomposition().comm);
+}
+
+double fastest(const Flow &flow)
+{
+  double speed = 0;
+  for (const View<double> &u : flow.velocity().views())
+    for (int k = flow.brick().lo[2]; k < flow.brick().hi[2]; ++k)
+      for (int j = flow.brick().lo[1]; j < flow.brick().hi[1]; ++j)
+        for (int i = flow.brick().lo[0]; i < flow.brick().hi[0]; ++i)
+          speed = std::max(speed, std::abs(u(i, j, k)));
+  MPI_Allreduce(MPI_IN_PLACE, &speed, 1, MPI_DOUBLE, MPI_MAX, flow.decomposition().comm);
+  return speed;
+}
+
+}    // namespace
+
+DirectForcing::Outcome DirectForcing::start_step(Flow &flow, double dt, const Problem &problem)
+{
+  const Markers &markers = problem.markers;
+  const double *const w = problem.resistance;
+  double *const inertial = problem.inertial, *const velocity = problem.velocity;
+  for (auto *vector : {&total_, &residual_, &direction_, &scaled_, &response_})
+    vector->resize(3 * std::size_t(problem.rows));
+
+  Outcome outcome;
+  for_each_number(markers,
+                  [&](int, std::size_t i) { total_[i] = problem.applied[i] + inertial[i]; });
+  flow.clear_force();
+  outcome.outside = flow.spread(problem.kernel, markers, problem.position, total_.data(), 1.0);
+  if (outcome.outside >= 0) return outcome;
+  flow.gather_force();
+  flow.start_step(dt);
+  flow.share_velocity();
+  flow.interpolate(problem.kernel, markers, problem.position, velocity);
+
+  for_each_number(markers, [&](int row, std::size_t i) {
+    const double root = std::sqrt(w[row]);
+    residual_[i] = root * (problem.target[i] - velocity[i]) - inertial[i] / root;
+    direction_[i] = residual_[i];
+  });
+
+  // sums over all markers: residual squared, as a force, as a velocity; force squared; numbers
+  const auto norms = [&] {
+    std::array<double, 5> sums{};
+    for_each_number(markers, [&](int row, std::size_t i) {
+      const double square = residual_[i] * residual_[i], force = problem.applied[i] + inertial[i];
+      sums[0] += square;
+      sums[1] += square * w[row];
+      sums[2] += square / w[row];
+      sums[3] += force * force;
+      sums[4] += 1;
+    });
+    sum_over_ranks(sums, flow);
+    return sums;
+  };
+  const double speed = fastest(flow);
+  auto sums = norms();
+  const auto error = [&] {
+    const double of_force = sums[1] > 0 ? std::sqrt(sums[1] / sums[3]) : 0;
+    const double of_velocity = sums[2] > 0 ? std::sqrt(sums[2] / sums[4]) / speed : 0;
+    return std::min(of_force, of_velocity);
+  };
+
+  while ((outcome.error = error()) > tolerance && outcome.solves < max_solves) {
+    for_each_number(
+        markers, [&](int row, std::size_t i) { scaled_[i] = std::sqrt(w[row]) * direction_[i]; });
+    outcome.outside =
+        flow.respond(problem.kernel, markers, problem.position, scaled_.data(), response_.data());
+    ++outcome.solves;
+    std::array<double, 1> curvature{};
+    for_each_number(markers, [&](int, std::size_t i) {
+      curvature[0] += direction_[i] * direction_[i] + scaled_[i] * response_[i];
+    });
+    sum_over_ranks(curvature, flow);
+    const double step = sums[0] / curvature[0];
+    flow.add_response(step);
+    for_each_number(markers, [&](int row, std::size_t i) {
+      inertial[i] += step * scaled_[i];
+      velocity[i] += step * response_[i];
+      residual_[i] -= step * (direction_[i] + std::sqrt(w[row]) * response_[i]);
+    });
+    const double before = sums[0];
+    sums = norms();
+    const double turn = sums[0] / before;
+    for_each_number(
+        markers, [&](int, std::size_t i) { direction_[i] = residual_[i] + turn * direction_[i]; });
+  }
+  return outcome;
+}
+
+}    // namespace fluid
