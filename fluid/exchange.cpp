@@ -1,7 +1,5 @@
 #include "exchange.h"
 
-#include <complex>
-
 namespace fluid {
 
 namespace {
@@ -11,10 +9,6 @@ constexpr int tag = 0;
 MPI_Datatype mpi_type(double)
 {
   return MPI_DOUBLE;
-}
-MPI_Datatype mpi_type(std::complex<double>)
-{
-  return MPI_C_DOUBLE_COMPLEX;
 }
 
 template <typename T, typename Row> void for_each_row(const View<T> &view, const Box &box, Row row)
@@ -134,6 +128,5 @@ void Exchange<T>::run(const View<T> *from, const View<T> *to, int components, co
 }
 
 template class Exchange<double>;
-template class Exchange<std::complex<double>>;
 
 }    // namespace fluid

@@ -2,13 +2,11 @@
 
 #include "exchange.h"
 
-#include <complex>
-
 namespace fluid {
 
 /// Moves a distributed array from one set of bricks (rank r owns from[r]) to another (to[r]).
 /// Moves nothing, and needs no memory, where every rank's brick is the same in both.
-template <typename T> class Redistribution {
+class Redistribution {
  public:
   Redistribution() = default;
   Redistribution(MPI_Comm comm, const std::vector<Box> &from, const std::vector<Box> &to) :
@@ -24,18 +22,18 @@ template <typename T> class Redistribution {
       if (!both_out.empty()) sends.push_back({r, both_out});
       if (!both_in.empty()) receives.push_back({r, both_in});
     }
-    exchange_ = Exchange<T>(comm, sends, receives);
+    exchange_ = Exchange<double>(comm, sends, receives);
   }
 
   bool identity() const { return identity_; }
 
   template <std::size_t N>
-  void forward(const std::array<View<T>, N> &from, const std::array<View<T>, N> &to)
+  void forward(const std::array<View<double>, N> &from, const std::array<View<double>, N> &to)
   {
     exchange_.copy(from, to);
   }
   template <std::size_t N>
-  void backward(const std::array<View<T>, N> &from, const std::array<View<T>, N> &to)
+  void backward(const std::array<View<double>, N> &from, const std::array<View<double>, N> &to)
   {
     exchange_.copy_back(from, to);
   }
@@ -45,7 +43,7 @@ template <typename T> class Redistribution {
 
  private:
   bool identity_ = true;
-  Exchange<T> exchange_;
+  Exchange<double> exchange_;
 };
 
 }    // namespace fluid
