@@ -1,12 +1,10 @@
 #pragma once
 
-#include <Eigen/Dense>
+#include "lanes.h"
+
 #include <vector>
 
 namespace fluid {
-
-/// The same quantity of several independent columns (modes), one per SIMD lane.
-template <int N> using Lane = Eigen::Array<double, N, 1>;
 
 /// Real and imaginary part along z of complex columns.
 template <int N> struct Columns {
