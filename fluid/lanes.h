@@ -11,19 +11,21 @@ template <int N> using Lane = Eigen::Array<double, N, 1>;
 template <int N> struct ComplexLane {
   Lane<N> re, im;
 
+  static ComplexLane constant(const std::complex<double> &z)
+  {
+    return {Lane<N>::Constant(z.real()), Lane<N>::Constant(z.imag())};
+  }
+
   /// The first `count` lanes; the others are zero.
   static ComplexLane load(const std::complex<double> *from, int count = N)
   {
     ComplexLane z;
     if (count == N) {
-      for (int m = 0; m < N; ++m) {
-        z.re[m] = from[m].real();
-        z.im[m] = from[m].imag();
-      }
-      return z;
+      for (int m = 0; m < N; ++m) z.set(m, from[m]);
+    } else {
+      z = constant(0);
+      for (int m = 0; m < count; ++m) z.set(m, from[m]);
     }
-    z = zero();
-    for (int m = 0; m < count; ++m) z.set(m, from[m]);
     return z;
   }
 
@@ -41,24 +43,30 @@ template <int N> struct ComplexLane {
     im[m] = z.imag();
   }
 
-  static ComplexLane zero() { return {Lane<N>::Zero(), Lane<N>::Zero()}; }
-
-  friend ComplexLane operator*(const ComplexLane &z, const Lane<N> &factor)
+  friend ComplexLane operator+(const ComplexLane &a, const ComplexLane &b)
   {
-    return {z.re * factor, z.im * factor};
+    return {a.re + b.re, a.im + b.im};
   }
-
-  /// a + b z and a - conj(b) z, where b may be the same for all lanes.
-  template <typename B>
-  friend ComplexLane plus_product(const ComplexLane &a, const B &b, const ComplexLane &z)
+  friend ComplexLane operator-(const ComplexLane &a, const ComplexLane &b)
   {
-    return {a.re + b.re * z.re - b.im * z.im, a.im + b.re * z.im + b.im * z.re};
+    return {a.re - b.re, a.im - b.im};
   }
-  template <typename B>
-  friend ComplexLane minus_conjugate_product(const ComplexLane &a, const B &b, const ComplexLane &z)
+  friend ComplexLane operator*(const ComplexLane &a, const ComplexLane &b)
   {
-    return {a.re - b.re * z.re - b.im * z.im, a.im - b.re * z.im + b.im * z.re};
+    return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
   }
+  friend ComplexLane operator-(const ComplexLane &z) { return {-z.re, -z.im}; }
+  friend ComplexLane operator*(double factor, const ComplexLane &z)
+  {
+    return {factor * z.re, factor * z.im};
+  }
+  friend ComplexLane operator*(const Lane<N> &factor, const ComplexLane &z)
+  {
+    return {factor * z.re, factor * z.im};
+  }
+  friend ComplexLane conj(const ComplexLane &z) { return {z.re, -z.im}; }
+  friend ComplexLane times_i(const ComplexLane &z) { return {-z.im, z.re}; }
+  friend ComplexLane over_i(const ComplexLane &z) { return {z.im, -z.re}; }
 };
 
 }    // namespace fluid

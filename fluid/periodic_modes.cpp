@@ -101,21 +101,18 @@ class PeriodicModes : public ModeSolver {
     for (int kz = 0; kz < grid_.cells[2]; ++kz) {
       const std::ptrdiff_t offset = std::ptrdiff_t(kz) * stride + group * lanes;
       const auto f = [&](int c) { return Modes::load(block_[c].data() + offset); };
-      const struct {
-        double re, im;
-      } dz{z_.kappa[kz] * z_.half_shift[kz].real(), z_.kappa[kz] * z_.half_shift[kz].imag()};
+      const Modes dz = Modes::constant(z_.kappa[kz] * z_.half_shift[kz]);
       const Lane<lanes> square = square_xy + z_.kappa[kz] * z_.kappa[kz];
       const Lane<lanes> symbol = shift_ + viscosity_ * square;
       const Lane<lanes> inverse = (symbol > 0).select(normalisation / symbol, 0.0);
       const Lane<lanes> inverse_square = (square > 0).select(1 / square, 0.0);
 
       const Modes fx = f(0), fy = f(1), fz = f(2);
-      Modes p = plus_product(plus_product(plus_product(Modes::zero(), dx, fx), dy, fy), dz, fz);
-      p = p * inverse_square;
-      (minus_conjugate_product(fx, dx, p) * inverse).store(block_[0].data() + offset);
-      (minus_conjugate_product(fy, dy, p) * inverse).store(block_[1].data() + offset);
-      (minus_conjugate_product(fz, dz, p) * inverse).store(block_[2].data() + offset);
-      Modes{p.im * normalisation, -p.re * normalisation}.store(block_[3].data() + offset);
+      const Modes p = inverse_square * (dx * fx + dy * fy + dz * fz);
+      (inverse * (fx - conj(dx) * p)).store(block_[0].data() + offset);
+      (inverse * (fy - conj(dy) * p)).store(block_[1].data() + offset);
+      (inverse * (fz - conj(dz) * p)).store(block_[2].data() + offset);
+      (normalisation * over_i(p)).store(block_[3].data() + offset);
     }
   }
 
