@@ -78,8 +78,8 @@ class Fourier {
   Redistribution to_x_;
   Transposition x_to_y_, y_to_z_;
   VectorField real_;
-  Buffer<Complex>
-      plane_;    ///< the one being transformed, where it does not end up in modes_ as it is
+  bool y_in_place_;          ///< in modes_; else in plane_
+  Buffer<Complex> plane_;    ///< the one being transformed
   RowTransform x_transform_;
   Plan y_forward_, y_backward_;
 };

@@ -51,7 +51,7 @@ Transposition::Transposition(MPI_Comm comm, const std::vector<Box> &from,
     identity_(from == to),
     comm_(comm)
 {
-  if (identity_) return;
+  if (identity_ && !whole) return;
   MPI_Comm_rank(comm, &rank_);
   const std::size_t shared = intersection(from[rank_], to[rank_]).size();
   storage_ = Buffer<Complex>(max_components *

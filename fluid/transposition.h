@@ -63,7 +63,7 @@ class Transposition {
   Transposition(MPI_Comm comm, const std::vector<Box> &from, const std::vector<Box> &to,
                 const Components<Complex, max_components> *whole);
 
-  /// Every rank's box is the same on both sides; there are no pieces then.
+  /// Every rank's box is the same on both sides; without `whole` there are no pieces then.
   bool identity() const { return identity_; }
 
   const Side &from() const { return from_; }
