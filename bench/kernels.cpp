@@ -239,7 +239,7 @@ void add(const std::string &name, const Index3 &cells, int iterations, Function 
 void add_all()
 {
   for (const Index3 &cells : sizes) {
-    const int iterations = cells[0] == 64 ? 100 : 15;
+    const int iterations = cells[0] == 64 ? 100 : 30;
     for (bool walls : {true, false})
       for (double shift : {0.0, 1.0})
         add(std::string(walls ? "walled" : "periodic") + (shift > 0 ? "/unsteady" : "/steady"),

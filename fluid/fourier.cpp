@@ -246,7 +246,8 @@ Traffic Fourier::traffic() const
 
 std::size_t Fourier::bytes() const
 {
-  return real_.bytes() + modes_.bytes() + to_x_.bytes() + x_to_y_.bytes() + y_to_z_.bytes();
+  return real_.bytes() + modes_.bytes() + plane_.bytes() + to_x_.bytes() + x_to_y_.bytes() +
+         y_to_z_.bytes();
 }
 
 template void Fourier::forward<3>(const std::array<View<double>, 3> &);

@@ -9,7 +9,7 @@ namespace fluid {
 
 using Complex = std::complex<double>;
 
-/// Owns an MPI type.
+/// Owns a derived MPI type.
 class DataType {
  public:
   explicit DataType(MPI_Datatype type) : type_(type) { MPI_Type_commit(&type_); }
@@ -58,8 +58,8 @@ class Transposition {
 
   Transposition() = default;
 
-  /// Where `whole` is given, it stores the box to[rank], and the pieces on that side are its parts: every
-  /// from[r] must then cover its planes in x and y, in the order of the ranks.
+  /// Where `whole` is given, it stores the box to[rank], and the pieces on that side are its parts: each must
+  /// cover to[rank] in x and y.
   Transposition(MPI_Comm comm, const std::vector<Box> &from, const std::vector<Box> &to,
                 const Components<Complex, max_components> *whole);
 
