@@ -1,16 +1,21 @@
 #pragma once
 
-#include <Eigen/Dense>
+#include "lanes.h"
+
 #include <vector>
 
 namespace fluid {
 
-/// The same quantity of several independent columns (modes), one per SIMD lane.
-template <int N> using Lane = Eigen::Array<double, N, 1>;
-
 /// Real and imaginary part along z of complex columns.
 template <int N> struct Columns {
-  explicit Columns(int n) : re(n), im(n) {}
+  explicit Columns(int n) : re(n, Lane<N>::Zero()), im(n, Lane<N>::Zero()) {}
+
+  ComplexLane<N> operator[](int k) const { return {re[k], im[k]}; }
+  void set(int k, const ComplexLane<N> &z)
+  {
+    re[k] = z.re;
+    im[k] = z.im;
+  }
 
   std::vector<Lane<N>> re, im;
 };
@@ -23,7 +28,8 @@ enum class ColumnEnds {
 };
 
 /// Columns of (a - b h^2 d^2/dz^2) x = r, solved by L D L^T.
-/// `factor` takes a and b = viscosity / h^2; `solve` replaces r by x.
+/// `factor` takes a and b = viscosity / h^2; `solve` replaces r by x. Or row by row: `begin`, then for rising k
+/// factor_row and eliminate, which needs r up to row k; then for falling k substitute, which gives x in row k.
 template <int N> class HelmholtzColumns : public Columns<N> {
  public:
   using Columns<N>::re;
@@ -33,99 +39,112 @@ template <int N> class HelmholtzColumns : public Columns<N> {
 
   void factor(const Lane<N> &a, double b, ColumnEnds ends = ColumnEnds::no_slip)
   {
-    const int n = static_cast<int>(re.size());
-    for (int k = 0; k < n; ++k) {
-      Lane<N> pivot = a + b * (2 + static_cast<int>(ends) * ((k == 0) + (k == n - 1)));
-      if (k > 0) pivot -= b * ratio_[k - 1];
-      inverse_pivot_[k] = 1 / pivot;
-      ratio_[k] = b * inverse_pivot_[k];
-    }
+    begin(a, b, ends);
+    for (int k = 0; k < cells(); ++k) factor_row(k);
   }
 
   void solve()
   {
-    const int n = static_cast<int>(re.size());
-    for (int k = 1; k < n; ++k) {
-      re[k] += ratio_[k - 1] * re[k - 1];
-      im[k] += ratio_[k - 1] * im[k - 1];
-    }
-    re[n - 1] *= inverse_pivot_[n - 1];
-    im[n - 1] *= inverse_pivot_[n - 1];
-    for (int k = n - 2; k >= 0; --k) {
-      re[k] = re[k] * inverse_pivot_[k] + ratio_[k] * re[k + 1];
-      im[k] = im[k] * inverse_pivot_[k] + ratio_[k] * im[k + 1];
-    }
+    for (int k = 0; k < cells(); ++k) eliminate(k);
+    for (int k = cells() - 1; k >= 0; --k) substitute(k);
+  }
+
+  void begin(const Lane<N> &a, double b, ColumnEnds ends = ColumnEnds::no_slip)
+  {
+    a_ = a;
+    b_ = b;
+    end_ = static_cast<int>(ends);
+  }
+
+  void factor_row(int k)
+  {
+    Lane<N> pivot = a_ + b_ * (2 + end_ * ((k == 0) + (k == cells() - 1)));
+    if (k > 0) pivot -= b_ * ratio_[k - 1];
+    inverse_pivot_[k] = 1 / pivot;
+    ratio_[k] = b_ * inverse_pivot_[k];
+  }
+
+  void eliminate(int k)
+  {
+    if (k == 0) return;
+    re[k] += ratio_[k - 1] * re[k - 1];
+    im[k] += ratio_[k - 1] * im[k - 1];
+  }
+
+  void substitute(int k)
+  {
+    re[k] *= inverse_pivot_[k];
+    im[k] *= inverse_pivot_[k];
+    if (k == cells() - 1) return;
+    re[k] += ratio_[k] * re[k + 1];
+    im[k] += ratio_[k] * im[k + 1];
   }
 
  private:
+  int cells() const { return static_cast<int>(re.size()); }
+
+  Lane<N> a_;
+  double b_ = 0;
+  int end_ = 0;
   std::vector<Lane<N>> inverse_pivot_, ratio_;
 };
 
 /// Columns of (q A_w + D^T A_c D) w = r on the interior faces 1 .. n-1 of n cells, w = 0 on faces 0 and n, with
 /// the Helmholtz operators A of coefficients a and b = viscosity / h^2 on faces (A_w) and on centres (A_c).
-/// Pentadiagonal, symmetric positive definite; L D L^T. `solve` replaces r by w.
+/// Used row by row like HelmholtzColumns, k = 1 .. n-1.
 template <int N> class VerticalColumns : public Columns<N> {
  public:
   using Columns<N>::re;
   using Columns<N>::im;
 
-  /// `faces` = n + 1
-  explicit VerticalColumns(int faces) :
-      Columns<N>(faces), inverse_pivot_(faces), first_(faces), second_(faces)
+  /// Stores zeros beyond face n too.
+  explicit VerticalColumns(int cells) :
+      Columns<N>(cells + 2), cells_(cells), inverse_pivot_(cells, Lane<N>::Zero()),
+      ratio_(cells, Lane<N>::Zero())
   {
   }
 
-  void factor(const Lane<N> &a, const Lane<N> &q, double b)
+  void begin(const Lane<N> &a, const Lane<N> &q, double b)
   {
-    const int n = cells();
-    const Lane<N> interior = a + 2 * b;
-    const auto centre = [&](int k) -> Lane<N> { return interior + ((k == 0) + (k == n - 1)) * b; };
-    Lane<N> previous_first = Lane<N>::Zero(), previous_second = Lane<N>::Zero(),
-            older_second = Lane<N>::Zero();
-    Lane<N> previous_pivot = Lane<N>::Zero(), older_pivot = Lane<N>::Zero();
-    for (int k = 1; k < n; ++k) {
-      const Lane<N> diagonal = q * interior + centre(k - 1) + centre(k) + 2 * b;
-      const Lane<N> next = -q * b - centre(k) - 2 * b;
-      const Lane<N> pivot =
-          diagonal - previous_pivot * previous_first.square() - older_pivot * older_second.square();
-      inverse_pivot_[k] = 1 / pivot;
-      first_[k] = (next - previous_pivot * previous_first * previous_second) * inverse_pivot_[k];
-      second_[k] = b * inverse_pivot_[k];
-      older_pivot = previous_pivot;
-      older_second = previous_second;
-      previous_pivot = pivot;
-      previous_first = first_[k];
-      previous_second = second_[k];
-    }
+    interior_ = a + 2 * b;
+    q_ = q;
+    b_ = b;
+    coupling_.setZero();
   }
 
-  void solve()
+  /// Each row couples to the next by `coupling_` and to the one after it by b, whatever the row.
+  void factor_row(int k)
   {
-    const int n = cells();
-    re[0].setZero();
-    im[0].setZero();
-    re[n].setZero();
-    im[n].setZero();
-    for (int k = 2; k < n; ++k) {
-      re[k] -= first_[k - 1] * re[k - 1];
-      im[k] -= first_[k - 1] * im[k - 1];
-      if (k == 2) continue;
-      re[k] -= second_[k - 2] * re[k - 2];
-      im[k] -= second_[k - 2] * im[k - 2];
-    }
-    for (int k = n - 1; k >= 1; --k) {
-      re[k] = re[k] * inverse_pivot_[k] - first_[k] * re[k + 1];
-      im[k] = im[k] * inverse_pivot_[k] - first_[k] * im[k + 1];
-      if (k == n - 1) continue;
-      re[k] -= second_[k] * re[k + 2];
-      im[k] -= second_[k] * im[k + 2];
-    }
+    const auto centre = [&](int c) -> Lane<N> {
+      return interior_ + ((c == 0) + (c == cells_ - 1)) * b_;
+    };
+    const Lane<N> pivot = q_ * interior_ + centre(k - 1) + centre(k) + 2 * b_ -
+                          coupling_ * ratio_[k - 1] - b_ * b_ * inverse_pivot_[before(k)];
+    inverse_pivot_[k] = 1 / pivot;
+    coupling_ = -q_ * b_ - centre(k) - 2 * b_ - b_ * ratio_[k - 1];
+    ratio_[k] = coupling_ * inverse_pivot_[k];
+  }
+
+  void eliminate(int k)
+  {
+    const Lane<N> second = b_ * inverse_pivot_[before(k)];
+    re[k] = re[k] - second * re[before(k)] - ratio_[k - 1] * re[k - 1];
+    im[k] = im[k] - second * im[before(k)] - ratio_[k - 1] * im[k - 1];
+  }
+
+  void substitute(int k)
+  {
+    re[k] = (re[k] - b_ * re[k + 2]) * inverse_pivot_[k] - ratio_[k] * re[k + 1];
+    im[k] = (im[k] - b_ * im[k + 2]) * inverse_pivot_[k] - ratio_[k] * im[k + 1];
   }
 
  private:
-  int cells() const { return static_cast<int>(re.size()) - 1; }
+  static int before(int k) { return std::max(k - 2, 0); }
 
-  std::vector<Lane<N>> inverse_pivot_, first_, second_;
+  int cells_;
+  Lane<N> interior_, q_, coupling_;
+  double b_ = 0;
+  std::vector<Lane<N>> inverse_pivot_, ratio_;
 };
 
 }    // namespace fluid

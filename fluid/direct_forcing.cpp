@@ -17,9 +17,12 @@ template <std::size_t N> void sum_over_ranks(std::array<double, N> &values, cons
   MPI_Allreduce(MPI_IN_PLACE, values.data(), N, MPI_DOUBLE, MPI_SUM, flow.decomposition().comm);
 }
 
-double fastest(const Flow &flow)
+/// Largest component of a velocity, of the fluid or wanted of a marker.
+double fastest(const Flow &flow, const Markers &markers, const double *target)
 {
   double speed = 0;
+  for_each_number(markers,
+                  [&](int, std::size_t i) { speed = std::max(speed, std::abs(target[i])); });
   for (const View<double> &u : flow.velocity().views())
     for (int k = flow.brick().lo[2]; k < flow.brick().hi[2]; ++k)
       for (int j = flow.brick().lo[1]; j < flow.brick().hi[1]; ++j)
@@ -31,10 +34,11 @@ double fastest(const Flow &flow)
 
 }    // namespace
 
-DirectForcing::Outcome DirectForcing::start_step(Flow &flow, double dt, const Problem &problem)
+DirectForcing::Outcome DirectForcing::advance(Flow &flow, double dt, const Problem &problem)
 {
   const Markers &markers = problem.markers;
-  const double *const w = problem.resistance;
+  const bool massive = problem.resistance != nullptr;
+  const auto weight = [&](int row) { return massive ? problem.resistance[row] : 1.0; };
   double *const inertial = problem.inertial, *const velocity = problem.velocity;
   for (auto *vector : {&total_, &residual_, &direction_, &scaled_, &response_})
     vector->resize(3 * std::size_t(problem.rows));
@@ -46,13 +50,17 @@ DirectForcing::Outcome DirectForcing::start_step(Flow &flow, double dt, const Pr
   outcome.outside = flow.spread(problem.kernel, markers, problem.position, total_.data(), 1.0);
   if (outcome.outside >= 0) return outcome;
   flow.gather_force();
-  flow.start_step(dt);
+  if (flow.regime().inertia == Inertia::none)
+    flow.solve();
+  else
+    flow.start_step(dt);
   flow.share_velocity();
   flow.interpolate(problem.kernel, markers, problem.position, velocity);
 
   for_each_number(markers, [&](int row, std::size_t i) {
-    const double root = std::sqrt(w[row]);
-    residual_[i] = root * (problem.target[i] - velocity[i]) - inertial[i] / root;
+    const double root = std::sqrt(weight(row));
+    residual_[i] = root * (problem.target[i] - velocity[i]);
+    if (massive) residual_[i] -= inertial[i] / root;
     direction_[i] = residual_[i];
   });
 
@@ -62,31 +70,33 @@ DirectForcing::Outcome DirectForcing::start_step(Flow &flow, double dt, const Pr
     for_each_number(markers, [&](int row, std::size_t i) {
       const double square = residual_[i] * residual_[i], force = problem.applied[i] + inertial[i];
       sums[0] += square;
-      sums[1] += square * w[row];
-      sums[2] += square / w[row];
+      sums[1] += square * weight(row);
+      sums[2] += square / weight(row);
       sums[3] += force * force;
       sums[4] += 1;
     });
     sum_over_ranks(sums, flow);
     return sums;
   };
-  const double speed = fastest(flow);
+  const double speed = fastest(flow, markers, problem.target);
   auto sums = norms();
   const auto error = [&] {
     const double of_force = sums[1] > 0 ? std::sqrt(sums[1] / sums[3]) : 0;
     const double of_velocity = sums[2] > 0 ? std::sqrt(sums[2] / sums[4]) / speed : 0;
-    return std::min(of_force, of_velocity);
+    return massive ? std::min(of_force, of_velocity) : of_velocity;
   };
 
   while ((outcome.error = error()) > tolerance && outcome.solves < max_solves) {
-    for_each_number(
-        markers, [&](int row, std::size_t i) { scaled_[i] = std::sqrt(w[row]) * direction_[i]; });
+    for_each_number(markers, [&](int row, std::size_t i) {
+      scaled_[i] = std::sqrt(weight(row)) * direction_[i];
+    });
     outcome.outside =
         flow.respond(problem.kernel, markers, problem.position, scaled_.data(), response_.data());
     ++outcome.solves;
     std::array<double, 1> curvature{};
     for_each_number(markers, [&](int, std::size_t i) {
-      curvature[0] += direction_[i] * direction_[i] + scaled_[i] * response_[i];
+      curvature[0] += scaled_[i] * response_[i];
+      if (massive) curvature[0] += direction_[i] * direction_[i];
     });
     sum_over_ranks(curvature, flow);
     const double step = sums[0] / curvature[0];
@@ -94,7 +104,8 @@ DirectForcing::Outcome DirectForcing::start_step(Flow &flow, double dt, const Pr
     for_each_number(markers, [&](int row, std::size_t i) {
       inertial[i] += step * scaled_[i];
       velocity[i] += step * response_[i];
-      residual_[i] -= step * (direction_[i] + std::sqrt(w[row]) * response_[i]);
+      residual_[i] -= step * std::sqrt(weight(row)) * response_[i];
+      if (massive) residual_[i] -= step * direction_[i];
     });
     const double before = sums[0];
     sums = norms();

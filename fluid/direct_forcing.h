@@ -12,6 +12,7 @@ namespace fluid {
 ///   (1 + sqrt(W) M sqrt(W)) z = sqrt(W) (V - U_F),
 /// which is solved by conjugate gradients with one solve of the flow each. Without mass nothing is left to solve; with
 /// a very large one the markers hold V, as a rigid no-slip surface (the direct forcing of Xu et al., equations 5 and 6).
+/// Where no resistance is given they do hold V: M mu = V - U_F.
 class DirectForcing {
  public:
   double tolerance = 1e-4;
@@ -21,7 +22,9 @@ class DirectForcing {
   struct Problem {
     KernelKind kernel;
     Markers markers;
-    const double *position, *applied, *resistance, *target;
+    const double *position, *applied;
+    const double *resistance;    ///< or null
+    const double *target;
     double *inertial;    ///< a guess that becomes the inertial force
     double *velocity;    ///< becomes U
     int rows;
@@ -36,8 +39,8 @@ class DirectForcing {
     double error = 0;
   };
 
-  /// Takes the place of clear_force .. interpolate in a step.
-  Outcome start_step(Flow &flow, double dt, const Problem &problem);
+  /// Takes the place of clear_force .. interpolate of Flow; dt counts with inertia only.
+  Outcome advance(Flow &flow, double dt, const Problem &problem);
 
  private:
   std::vector<double> total_, residual_, direction_, scaled_, response_;

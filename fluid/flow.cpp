@@ -30,12 +30,12 @@ Flow::Flow(const Grid &grid, const Decomposition &decomposition, int ghost_layer
     grid_(grid),
     decomposition_(decomposition), regime_(regime),
     halo_(grid, decomposition, std::max(ghost_layers, 1)), has_force_(ghost_layers > 0),
-    velocity_(halo_.box()), solver_(grid, decomposition, halo_.box(), regime.viscosity, 0.0,
-                                    regime.hold_mean, regime.scheme)
+    velocity_(halo_.box()),
+    solver_(grid, decomposition, regime.viscosity, 0.0, regime.hold_mean, regime.scheme)
 {
   if (has_force_) force_ = VectorField(halo_.box());
   if (regime.inertia != Inertia::none) previous_ = VectorField(halo_.box());
-  if (regime.inertia == Inertia::convective) rhs_ = VectorField(halo_.box());
+  if (regime.inertia == Inertia::convective) rhs_ = VectorField(brick());
 }
 
 void Flow::clear_force()
@@ -206,7 +206,7 @@ const ScalarField &Flow::pressure()
   const bool steady = regime_.inertia == Inertia::none;
   if (!steady && !stepped_) return pressure_;
   const bool forces_only = steady && has_force_;
-  if (!forces_only && !rhs_.bytes()) rhs_ = VectorField(halo_.box());
+  if (!forces_only && !rhs_.bytes()) rhs_ = VectorField(brick());
   if (regime_.inertia == Inertia::unsteady) assemble(previous_, rhs_);
   solver_.pressure(forces_only ? force_ : rhs_, drive, pressure_);
   return pressure_;

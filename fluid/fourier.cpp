@@ -12,11 +12,53 @@ fftw_complex *raw(Complex *p)
   return reinterpret_cast<fftw_complex *>(p);
 }
 
-template <std::size_t N> std::array<View<Complex>, N> leading(const Components<Complex, 3> &all)
+/// Length of rows for transforms across them: at strides of an even number of cache lines, above all at powers of
+/// two, few sets of the cache are used.
+int padded(int columns)
 {
-  std::array<View<Complex>, N> views;
-  for (std::size_t c = 0; c < N; ++c) views[c] = all[c];
-  return views;
+  return columns % 8 == 0 ? columns + 4 : columns;
+}
+
+template <typename Visit> void for_each_plane(int components, const Box &box, Visit visit)
+{
+  if (box.empty()) return;
+  for (int k = box.lo[2]; k < box.hi[2]; ++k)
+    for (int c = 0; c < components; ++c) visit(c, k);
+}
+
+void join_values(const double *a, const double *b, Complex *z, int n)
+{
+  for (int i = 0; i < n; ++i) z[i] = {a[i], b[i]};
+}
+
+void split_values(const Complex *z, double *a, double *b, int n)
+{
+  for (int i = 0; i < n; ++i) {
+    a[i] = z[i].real();
+    b[i] = z[i].imag();
+  }
+}
+
+/// Modes of a and b from those of z = a + i b.
+void split_modes(const Complex *z, Complex *a, Complex *b, int n)
+{
+  a[0] = z[0].real();
+  b[0] = z[0].imag();
+  for (int k = 1; k <= n / 2; ++k) {
+    const Complex p = z[k], q = z[n - k];
+    a[k] = {0.5 * (p.real() + q.real()), 0.5 * (p.imag() - q.imag())};
+    b[k] = {0.5 * (p.imag() + q.imag()), 0.5 * (q.real() - p.real())};
+  }
+}
+
+void join_modes(const Complex *a, const Complex *b, Complex *z, int n)
+{
+  z[0] = {a[0].real(), b[0].real()};
+  for (int k = 1; k < (n + 1) / 2; ++k) {
+    z[k] = {a[k].real() - b[k].imag(), a[k].imag() + b[k].real()};
+    z[n - k] = {a[k].real() + b[k].imag(), b[k].real() - a[k].imag()};
+  }
+  if (n % 2 == 0) z[n / 2] = {a[n / 2].real(), b[n / 2].real()};
 }
 
 }    // namespace
@@ -31,112 +73,175 @@ int fast_size(int n)
   }
 }
 
-Fourier::Fourier(const Grid &grid, const Decomposition &decomposition, const Box &storage)
+RowTransform::RowTransform(int length) : length_(length), rows_(std::size_t(pairs) * length)
 {
-  const Pencils pencils = choose_pencils(grid, decomposition.bricks);
-  const MPI_Comm comm = decomposition.comm;
-  to_x_ = {comm, decomposition.bricks, pencils.real_x};
-  x_to_y_ = {comm, pencils.x, pencils.y};
-  y_to_z_ = {comm, pencils.y, pencils.z};
+  const auto plan = [&](int sign) {
+    fftw_complex *rows = raw(rows_.data());
+    return Plan(fftw_plan_many_dft(1, &length, pairs, rows, nullptr, 1, length, rows, nullptr, 1,
+                                   length, sign, planning));
+  };
+  forward_ = plan(FFTW_FORWARD);
+  backward_ = plan(FFTW_BACKWARD);
+}
 
-  const int me = decomposition.rank;
-  row_box_ = pencils.real_x[me];
-  mode_bricks_ = pencils.z;
-  storage_[0] = Modes(pencils.z[me]);
-  z_ = &storage_[0];
-  if (!y_to_z_.identity()) storage_[1] = Modes(pencils.y[me]);
-  y_ = y_to_z_.identity() ? z_ : &storage_[1];
-  if (!x_to_y_.identity()) storage_[2] = Modes(pencils.x[me]);
-  x_ = x_to_y_.identity() ? y_ : &storage_[2];
-  if (!to_x_.identity()) real_ = VectorField(row_box_);
-
-  const int nx = grid.cells[0], ny = grid.cells[1], modes = nx / 2 + 1;
-  if (!row_box_.empty()) {
-    const Box &stored = to_x_.identity() ? storage : row_box_;
-    const int stride = stored.extent(0), rows = row_box_.extent(1);
-    Buffer<double> values(std::size_t(stride) * rows);
-    Buffer<Complex> spectrum(std::size_t(modes) * rows);
-    x_forward_ = Plan(fftw_plan_many_dft_r2c(1, &nx, rows, values.data(), nullptr, 1, stride,
-                                             raw(spectrum.data()), nullptr, 1, modes,
-                                             planning | FFTW_UNALIGNED));
-    x_backward_ =
-        Plan(fftw_plan_many_dft_c2r(1, &nx, rows, raw(spectrum.data()), nullptr, 1, modes,
-                                    values.data(), nullptr, 1, stride, planning | FFTW_UNALIGNED));
-  }
-  if (!y_->box().empty()) {
-    const int columns = y_->box().extent(0);
-    Buffer<Complex> plane(std::size_t(columns) * ny);
-    const auto plan = [&](int sign) {
-      return Plan(fftw_plan_many_dft(1, &ny, columns, raw(plane.data()), nullptr, columns, 1,
-                                     raw(plane.data()), nullptr, columns, 1, sign, planning));
+/// The last row stands in for those that are missing in its pair and batch.
+template <typename Join, typename Split>
+void RowTransform::transform(const Plan &plan, int lo, int hi, Join join, Split split) const
+{
+  for (int first = lo; first < hi; first += 2 * pairs) {
+    const auto for_each_pair = [&](auto visit) {
+      for (int pair = 0; pair < pairs; ++pair) {
+        const int j = std::min(first + 2 * pair, hi - 1);
+        visit(j, std::min(j + 1, hi - 1), rows_.data() + std::ptrdiff_t(pair) * length_);
+      }
     };
-    y_forward_ = plan(FFTW_FORWARD);
-    y_backward_ = plan(FFTW_BACKWARD);
+    for_each_pair(join);
+    fftw_execute(plan.get());
+    for_each_pair(split);
   }
 }
 
-View<double> Fourier::rows(const View<double> &values, int component) const
+void RowTransform::forward(const View<double> &values, const View<Complex> &modes, int lo, int hi,
+                           int k) const
 {
-  return to_x_.identity() ? values : real_[component];
+  transform(
+      forward_, lo, hi,
+      [&](int j, int next, Complex *row) {
+        join_values(&values(0, j, k), &values(0, next, k), row, length_);
+      },
+      [&](int j, int next, const Complex *row) {
+        split_modes(row, &modes(0, j, k), &modes(0, next, k), length_);
+      });
+}
+
+void RowTransform::backward(const View<Complex> &modes, const View<double> &values, int lo, int hi,
+                            int k) const
+{
+  transform(
+      backward_, lo, hi,
+      [&](int j, int next, Complex *row) {
+        join_modes(&modes(0, j, k), &modes(0, next, k), row, length_);
+      },
+      [&](int j, int next, const Complex *row) {
+        split_values(row, &values(0, j, k), &values(0, next, k), length_);
+      });
+}
+
+Fourier::Fourier(const Grid &grid, const Decomposition &decomposition)
+{
+  const Pencils pencils = choose_pencils(grid, decomposition.bricks);
+  const MPI_Comm comm = decomposition.comm;
+  const int me = decomposition.rank;
+  real_x_ = pencils.real_x[me];
+  x_ = pencils.x[me];
+  y_ = pencils.y[me];
+  mode_bricks_ = pencils.z;
+  modes_ = Components<Complex, 3>(pencils.z[me]);
+  to_x_ = {comm, decomposition.bricks, pencils.real_x};
+  x_to_y_ = {comm, pencils.x, pencils.y, nullptr};
+  y_to_z_ = {comm, pencils.y, pencils.z, &modes_};
+  if (!to_x_.identity()) real_ = VectorField(real_x_);
+
+  x_transform_ = RowTransform(grid.cells[0]);
+  const int ny = grid.cells[1], columns = y_.extent(0), row = padded(columns);
+  y_in_place_ = y_to_z_.identity() && row == columns;
+  plane_ =
+      Buffer<Complex>(std::max(std::size_t(x_.extent(0)) * x_.extent(1), std::size_t(row) * ny));
+  if (y_.empty()) return;
+  const auto plan = [&](int sign) {
+    fftw_complex *plane = raw(plane_.data());
+    return Plan(fftw_plan_many_dft(1, &ny, columns, plane, nullptr, row, 1, plane, nullptr, row, 1,
+                                   sign, planning));
+  };
+  y_forward_ = plan(FFTW_FORWARD);
+  y_backward_ = plan(FFTW_BACKWARD);
+}
+
+template <std::size_t N>
+std::array<View<double>, N> Fourier::rows(const std::array<View<double>, N> &values) const
+{
+  if (to_x_.identity()) return values;
+  std::array<View<double>, N> rows;
+  for (std::size_t c = 0; c < N; ++c) rows[c] = real_[c];
+  return rows;
+}
+
+View<Complex> Fourier::x_plane(int component, int k) const
+{
+  if (x_to_y_.identity()) return y_plane(component, k);
+  Box box = x_;
+  box.lo[2] = k;
+  return {plane_.data(), box};
+}
+
+View<Complex> Fourier::y_plane(int component, int k) const
+{
+  if (y_in_place_) return modes_[component];
+  Box box = y_;
+  box.hi[0] = box.lo[0] + padded(box.extent(0));
+  box.lo[2] = k;
+  return {plane_.data(), box};
+}
+
+void Fourier::transform_y(const Plan &plan, const View<Complex> &plane, int k) const
+{
+  fftw_complex *first = raw(&plane(y_.lo[0], 0, k));
+  fftw_execute_dft(plan.get(), first, first);
 }
 
 template <std::size_t N> void Fourier::forward(const std::array<View<double>, N> &values)
 {
-  std::array<View<double>, N> real;
-  for (std::size_t c = 0; c < N; ++c) real[c] = rows(values[c], c);
+  const std::array<View<double>, N> real = rows(values);
   if (!to_x_.identity()) to_x_.forward(values, real);
 
-  const bool planes_whole = x_to_y_.identity();
-  const auto transform_y = [&](std::size_t c, int k) {
-    const View<Complex> modes = (*y_)[c];
-    fftw_complex *plane = raw(&modes(modes.box.lo[0], 0, k));
-    fftw_execute_dft(y_forward_.get(), plane, plane);
+  const auto finish = [&](int c, const View<Complex> &plane, int k) {
+    transform_y(y_forward_, plane, k);
+    if (!y_in_place_) y_to_z_.from().put(c, plane, k);
   };
-
-  if (!row_box_.empty())
-    for (std::size_t c = 0; c < N; ++c)
-      for (int k = row_box_.lo[2]; k < row_box_.hi[2]; ++k) {
-        const View<Complex> modes = (*x_)[c];
-        fftw_execute_dft_r2c(x_forward_.get(), &real[c](0, row_box_.lo[1], k),
-                             raw(&modes(0, row_box_.lo[1], k)));
-        if (planes_whole) transform_y(c, k);
-      }
-  if (!planes_whole) {
-    x_to_y_.forward(leading<N>(*x_), leading<N>(*y_));
-    if (!y_->box().empty())
-      for (std::size_t c = 0; c < N; ++c)
-        for (int k = y_->box().lo[2]; k < y_->box().hi[2]; ++k) transform_y(c, k);
+  for_each_plane(N, x_, [&](int c, int k) {
+    const View<Complex> plane = x_plane(c, k);
+    x_transform_.forward(real[c], plane, x_.lo[1], x_.hi[1], k);
+    if (x_to_y_.identity())
+      finish(c, plane, k);
+    else
+      x_to_y_.from().put(c, plane, k);
+  });
+  if (!x_to_y_.identity()) {
+    x_to_y_.forward(N);
+    for_each_plane(N, y_, [&](int c, int k) {
+      const View<Complex> plane = y_plane(c, k);
+      x_to_y_.to().take(c, plane, k);
+      finish(c, plane, k);
+    });
   }
-  if (!y_to_z_.identity()) y_to_z_.forward(leading<N>(*y_), leading<N>(*z_));
+  y_to_z_.forward(N);
 }
 
 template <std::size_t N> void Fourier::backward(const std::array<View<double>, N> &values)
 {
-  if (!y_to_z_.identity()) y_to_z_.backward(leading<N>(*z_), leading<N>(*y_));
+  const std::array<View<double>, N> real = rows(values);
+  y_to_z_.backward(N);
 
-  const bool planes_whole = x_to_y_.identity();
-  const auto transform_y = [&](std::size_t c, int k) {
-    const View<Complex> modes = (*y_)[c];
-    fftw_complex *plane = raw(&modes(modes.box.lo[0], 0, k));
-    fftw_execute_dft(y_backward_.get(), plane, plane);
+  const auto start = [&](int c, const View<Complex> &plane, int k) {
+    if (!y_in_place_) y_to_z_.from().take(c, plane, k);
+    transform_y(y_backward_, plane, k);
   };
-  if (!planes_whole) {
-    if (!y_->box().empty())
-      for (std::size_t c = 0; c < N; ++c)
-        for (int k = y_->box().lo[2]; k < y_->box().hi[2]; ++k) transform_y(c, k);
-    x_to_y_.backward(leading<N>(*y_), leading<N>(*x_));
+  if (!x_to_y_.identity()) {
+    for_each_plane(N, y_, [&](int c, int k) {
+      const View<Complex> plane = y_plane(c, k);
+      start(c, plane, k);
+      x_to_y_.to().put(c, plane, k);
+    });
+    x_to_y_.backward(N);
   }
-
-  std::array<View<double>, N> real;
-  for (std::size_t c = 0; c < N; ++c) real[c] = rows(values[c], c);
-  if (!row_box_.empty())
-    for (std::size_t c = 0; c < N; ++c)
-      for (int k = row_box_.lo[2]; k < row_box_.hi[2]; ++k) {
-        if (planes_whole) transform_y(c, k);
-        const View<Complex> modes = (*x_)[c];
-        fftw_execute_dft_c2r(x_backward_.get(), raw(&modes(0, row_box_.lo[1], k)),
-                             &real[c](0, row_box_.lo[1], k));
-      }
+  for_each_plane(N, x_, [&](int c, int k) {
+    const View<Complex> plane = x_plane(c, k);
+    if (x_to_y_.identity())
+      start(c, plane, k);
+    else
+      x_to_y_.from().take(c, plane, k);
+    x_transform_.backward(plane, real[c], x_.lo[1], x_.hi[1], k);
+  });
   if (!to_x_.identity()) to_x_.backward(real, values);
 }
 
@@ -152,9 +257,8 @@ Traffic Fourier::traffic() const
 
 std::size_t Fourier::bytes() const
 {
-  std::size_t sum = real_.bytes() + to_x_.bytes() + x_to_y_.bytes() + y_to_z_.bytes();
-  for (const Modes &modes : storage_) sum += modes.bytes();
-  return sum;
+  return real_.bytes() + modes_.bytes() + plane_.bytes() + to_x_.bytes() + x_to_y_.bytes() +
+         y_to_z_.bytes();
 }
 
 template void Fourier::forward<3>(const std::array<View<double>, 3> &);

@@ -2,12 +2,9 @@
 
 #include "pencils.h"
 #include "redistribution.h"
-
-#include <complex>
+#include "transposition.h"
 
 namespace fluid {
-
-using Complex = std::complex<double>;
 
 /// Smallest number of points >= n without prime factors above 7: FFTW is fast for these.
 int fast_size(int n);
@@ -26,6 +23,29 @@ class Plan {
   std::unique_ptr<fftw_plan_s, Destroy> plan_;
 };
 
+/// Real transform of rows of the same length, two rows at a time as real and imaginary part of a complex one:
+/// FFTW's complex transforms use SIMD, its real ones mostly do not.
+class RowTransform {
+ public:
+  RowTransform() = default;
+  explicit RowTransform(int length);
+
+  /// Rows lo <= j < hi of plane k; `modes` has length/2 + 1 of each.
+  void forward(const View<double> &values, const View<Complex> &modes, int lo, int hi, int k) const;
+  void backward(const View<Complex> &modes, const View<double> &values, int lo, int hi,
+                int k) const;
+
+ private:
+  static constexpr int pairs = 4;
+
+  template <typename Join, typename Split>
+  void transform(const Plan &plan, int lo, int hi, Join join, Split split) const;
+
+  int length_ = 0;
+  Buffer<Complex> rows_;
+  Plan forward_, backward_;
+};
+
 /// Distributed real transform in x and y of up to three components at a time, unnormalised. Grid values
 /// live on the decomposition's bricks, modes on `modes()`: a box of (kx, ky) with all of z.
 class Fourier {
@@ -33,11 +53,10 @@ class Fourier {
   Fourier(const Fourier &) = delete;
   Fourier &operator=(const Fourier &) = delete;
 
-  /// `storage` is the box over which the value arrays are stored (the brick with its ghost layers).
-  Fourier(const Grid &grid, const Decomposition &decomposition, const Box &storage);
+  Fourier(const Grid &grid, const Decomposition &decomposition);
 
   /// Modes (kx, ky) this rank holds, with all of z.
-  const Box &modes() const { return z_->box(); }
+  const Box &modes() const { return modes_.box(); }
 
   /// The modes of every rank.
   const std::vector<Box> &mode_bricks() const { return mode_bricks_; }
@@ -48,24 +67,28 @@ class Fourier {
   /// Transforms spectrum() back to this rank's brick; overwrites spectrum().
   template <std::size_t N> void backward(const std::array<View<double>, N> &values);
 
-  View<Complex> spectrum(int component) const { return (*z_)[component]; }
+  View<Complex> spectrum(int component) const { return modes_[component]; }
 
   Traffic traffic() const;
   std::size_t bytes() const;
 
  private:
-  using Modes = Components<Complex, 3>;
+  template <std::size_t N>
+  std::array<View<double>, N> rows(const std::array<View<double>, N> &values) const;
+  View<Complex> x_plane(int component, int k) const;
+  View<Complex> y_plane(int component, int k) const;
+  void transform_y(const Plan &plan, const View<Complex> &plane, int k) const;
 
-  View<double> rows(const View<double> &values, int component) const;
-
-  Redistribution<double> to_x_;
-  Redistribution<Complex> x_to_y_, y_to_z_;
-  VectorField real_;
-  std::array<Modes, 3> storage_;
-  const Modes *x_, *y_, *z_;
-  Box row_box_;
+  Box real_x_, x_, y_;
   std::vector<Box> mode_bricks_;
-  Plan x_forward_, x_backward_, y_forward_, y_backward_;
+  Components<Complex, 3> modes_;
+  Redistribution to_x_;
+  Transposition x_to_y_, y_to_z_;
+  VectorField real_;
+  bool y_in_place_;          ///< in modes_; else in plane_
+  Buffer<Complex> plane_;    ///< the one being transformed
+  RowTransform x_transform_;
+  Plan y_forward_, y_backward_;
 };
 
 }    // namespace fluid

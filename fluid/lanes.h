@@ -1,90 +1,72 @@
 #pragma once
 
-#include "banded.h"
-#include "field.h"
-#include "wavenumbers.h"
+#include <Eigen/Dense>
+#include <complex>
 
 namespace fluid {
 
-// Modes of one ky are solved in blocks of neighbouring kx, one per lane.
-constexpr int lanes = 8;
-using Lanes = Lane<lanes>;
+/// The same quantity of several independent modes, one per SIMD lane.
+template <int N> using Lane = Eigen::Array<double, N, 1>;
 
-/// Reads `count` neighbouring modes from (kx, ky, k) on; the other lanes are zero.
-inline void load(const View<std::complex<double>> &from, int kx, int ky, int k, int count,
-                 Lanes &re, Lanes &im)
-{
-  const std::complex<double> *row = &from(kx, ky, k);
-  const auto read = [&](int n) {
-    for (int m = 0; m < n; ++m) {
-      re[m] = row[m].real();
-      im[m] = row[m].imag();
+template <int N> struct ComplexLane {
+  Lane<N> re, im;
+
+  static ComplexLane constant(const std::complex<double> &z)
+  {
+    return {Lane<N>::Constant(z.real()), Lane<N>::Constant(z.imag())};
+  }
+
+  /// The first `count` lanes; the others are zero.
+  static ComplexLane load(const std::complex<double> *from, int count = N)
+  {
+    ComplexLane z;
+    if (count == N) {
+      for (int m = 0; m < N; ++m) z.set(m, from[m]);
+    } else {
+      z = constant(0);
+      for (int m = 0; m < count; ++m) z.set(m, from[m]);
     }
-  };
-  if (count == lanes) {
-    read(lanes);
-    return;
+    return z;
   }
-  re.setZero();
-  im.setZero();
-  read(count);
-}
 
-inline void store(const View<std::complex<double>> &to, int kx, int ky, int k, int count,
-                  const Lanes &re, const Lanes &im)
-{
-  std::complex<double> *row = &to(kx, ky, k);
-  const auto write = [&](int n) {
-    for (int m = 0; m < n; ++m) row[m] = {re[m], im[m]};
-  };
-  if (count == lanes)
-    write(lanes);
-  else
-    write(count);
-}
-
-/// Horizontal wave vectors of a block of modes: magnitude, direction, and the shift between faces and centres. The
-/// mean mode counts as one of magnitude 1 along x, without meaning.
-struct WaveVectors {
-  Lanes kappa = Lanes::Ones(), x = Lanes::Ones(), y = Lanes::Zero();
-
-  /// `mx`, `my` count from the first modes of `along_x`, `along_y`.
-  WaveVectors(const Wavenumbers &along_x, const Wavenumbers &along_y, int mx, int my, int count)
+  void store(std::complex<double> *to, int count = N) const
   {
-    ey_re_.setConstant(along_y.half_shift[my].real());
-    ey_im_.setConstant(along_y.half_shift[my].imag());
-    for (int m = 0; m < count; ++m) {
-      const double kx = along_x.kappa[mx + m], ky = along_y.kappa[my];
-      ex_re_[m] = along_x.half_shift[mx + m].real();
-      ex_im_[m] = along_x.half_shift[mx + m].imag();
-      const double magnitude = std::hypot(kx, ky);
-      if (magnitude == 0) continue;
-      kappa[m] = magnitude;
-      x[m] = kx / magnitude;
-      y[m] = ky / magnitude;
-    }
+    if (count == N)
+      for (int m = 0; m < N; ++m) to[m] = {re[m], im[m]};
+    else
+      for (int m = 0; m < count; ++m) to[m] = {re[m], im[m]};
   }
 
-  void to_centres(Lanes &u_re, Lanes &u_im, Lanes &v_re, Lanes &v_im) const
+  void set(int m, const std::complex<double> &z)
   {
-    rotate(u_re, u_im, ex_re_, ex_im_);
-    rotate(v_re, v_im, ey_re_, ey_im_);
-  }
-  void to_faces(Lanes &u_re, Lanes &u_im, Lanes &v_re, Lanes &v_im) const
-  {
-    rotate(u_re, u_im, ex_re_, -ex_im_);
-    rotate(v_re, v_im, ey_re_, -ey_im_);
+    re[m] = z.real();
+    im[m] = z.imag();
   }
 
- private:
-  static void rotate(Lanes &re, Lanes &im, const Lanes &cosine, const Lanes &sine)
+  friend ComplexLane operator+(const ComplexLane &a, const ComplexLane &b)
   {
-    const Lanes turned = re * cosine - im * sine;
-    im = re * sine + im * cosine;
-    re = turned;
+    return {a.re + b.re, a.im + b.im};
   }
-
-  Lanes ex_re_ = Lanes::Zero(), ex_im_ = Lanes::Zero(), ey_re_, ey_im_;
+  friend ComplexLane operator-(const ComplexLane &a, const ComplexLane &b)
+  {
+    return {a.re - b.re, a.im - b.im};
+  }
+  friend ComplexLane operator*(const ComplexLane &a, const ComplexLane &b)
+  {
+    return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+  }
+  friend ComplexLane operator-(const ComplexLane &z) { return {-z.re, -z.im}; }
+  friend ComplexLane operator*(double factor, const ComplexLane &z)
+  {
+    return {factor * z.re, factor * z.im};
+  }
+  friend ComplexLane operator*(const Lane<N> &factor, const ComplexLane &z)
+  {
+    return {factor * z.re, factor * z.im};
+  }
+  friend ComplexLane conj(const ComplexLane &z) { return {z.re, -z.im}; }
+  friend ComplexLane times_i(const ComplexLane &z) { return {-z.im, z.re}; }
+  friend ComplexLane over_i(const ComplexLane &z) { return {z.im, -z.re}; }
 };
 
 }    // namespace fluid

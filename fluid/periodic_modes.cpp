@@ -1,3 +1,4 @@
+#include "lanes.h"
 #include "mode_solver.h"
 #include "wavenumbers.h"
 
@@ -5,6 +6,14 @@ namespace fluid {
 
 namespace {
 
+// Columns of modes are transformed in z and solved in blocks that fit into the cache, `lanes` at a time.
+constexpr int lanes = 8, groups = 4, width = groups * lanes;
+constexpr int stride =
+    width + 4;    // an odd number of cache lines: powers of two would share few sets
+using Modes = ComplexLane<lanes>;
+
+/// With all directions transformed, momentum and continuity are f = s u + conj(d) p and d.u = 0, where d is the
+/// symbol of the difference from faces to centres (Wavenumbers) and s that of the Helmholtz operator.
 class PeriodicModes : public ModeSolver {
  public:
   PeriodicModes(const Grid &grid, const Box &modes, double viscosity, double shift,
@@ -16,11 +25,11 @@ class PeriodicModes : public ModeSolver {
       z_(grid.cells[2], grid.spacing[2], 0, grid.cells[2])
   {
     if (modes.empty()) return;
-    const int nz = grid.cells[2], columns = modes.extent(0), plane = columns * modes.extent(1);
-    Buffer<Complex> scratch(std::size_t(plane) * nz);
-    auto *p = reinterpret_cast<fftw_complex *>(scratch.data());
+    const int nz = grid.cells[2];
+    for (auto &component : block_) component = Buffer<Complex>(std::size_t(stride) * nz);
+    auto *p = raw(block_[0].data());
     const auto plan = [&](int sign) {
-      return Plan(fftw_plan_many_dft(1, &nz, columns, p, nullptr, plane, 1, p, nullptr, plane, 1,
+      return Plan(fftw_plan_many_dft(1, &nz, width, p, nullptr, stride, 1, p, nullptr, stride, 1,
                                      sign, FFTW_ESTIMATE));
     };
     forward_ = plan(FFTW_FORWARD);
@@ -32,21 +41,85 @@ class PeriodicModes : public ModeSolver {
   void solve(const std::array<View<Complex>, 3> &spectrum, const Drive &drive,
              const View<Complex> *pressure) override
   {
-    if (modes_.empty()) return;
-    for (int ky = modes_.lo[1]; ky < modes_.hi[1]; ++ky) {
-      for (const auto &component : spectrum) transform(forward_, component, ky);
-      for (int kz = 0; kz < grid_.cells[2]; ++kz) project_row(spectrum, pressure, ky, kz);
-      if (ky == 0 && modes_.contains({0, 0, 0})) drive_mean(spectrum, drive);
-      for (const auto &component : spectrum) transform(backward_, component, ky);
-      if (pressure) transform(backward_, *pressure, ky);
+    const int columns = modes_.empty() ? 0 : modes_.extent(0) * modes_.extent(1);
+    for (int first = 0; first < columns; first += width) {
+      const int count = std::min(width, columns - first);
+      for (int c = 0; c < 3; ++c) {
+        load(spectrum[c], first, count, block_[c]);
+        transform(forward_, block_[c]);
+      }
+      for (int group = 0; group < groups; ++group) project(first, count, group);
+      if (first == 0 && modes_.contains({0, 0, 0})) drive_mean(drive);
+      for (int c = 0; c < 3; ++c) {
+        transform(backward_, block_[c]);
+        store(block_[c], first, count, spectrum[c]);
+      }
+      if (pressure) {
+        transform(backward_, block_[3]);
+        store(block_[3], first, count, *pressure);
+      }
     }
   }
 
  private:
-  void drive_mean(const std::array<View<Complex>, 3> &spectrum, const Drive &drive) const
+  static fftw_complex *raw(Complex *p) { return reinterpret_cast<fftw_complex *>(p); }
+
+  static void transform(const Plan &plan, const Buffer<Complex> &block)
+  {
+    fftw_execute_dft(plan.get(), raw(block.data()), raw(block.data()));
+  }
+
+  /// Columns first, first + 1, ... of the plane (kx, ky); the block's other columns are zero.
+  void load(const View<Complex> &from, int first, int count, const Buffer<Complex> &block) const
+  {
+    for (int k = 0; k < grid_.cells[2]; ++k) {
+      Complex *row = block.data() + std::ptrdiff_t(k) * stride;
+      std::copy_n(&from(modes_.lo[0], modes_.lo[1], k) + first, count, row);
+      std::fill(row + count, row + width, 0);
+    }
+  }
+
+  void store(const Buffer<Complex> &block, int first, int count, const View<Complex> &to) const
+  {
+    for (int k = 0; k < grid_.cells[2]; ++k)
+      std::copy_n(block.data() + std::ptrdiff_t(k) * stride, count,
+                  &to(modes_.lo[0], modes_.lo[1], k) + first);
+  }
+
+  void project(int first, int count, int group) const
+  {
+    Modes dx, dy;
+    Lane<lanes> square_xy;
+    for (int m = 0; m < lanes; ++m) {
+      const int column = first + std::min(group * lanes + m, count - 1);
+      const int i = column % modes_.extent(0), j = column / modes_.extent(0);
+      dx.set(m, x_.kappa[i] * x_.half_shift[i]);
+      dy.set(m, y_.kappa[j] * y_.half_shift[j]);
+      square_xy[m] = x_.kappa[i] * x_.kappa[i] + y_.kappa[j] * y_.kappa[j];
+    }
+    const double normalisation = 1.0 / grid_.size();
+    for (int kz = 0; kz < grid_.cells[2]; ++kz) {
+      const std::ptrdiff_t offset = std::ptrdiff_t(kz) * stride + group * lanes;
+      const auto f = [&](int c) { return Modes::load(block_[c].data() + offset); };
+      const Modes dz = Modes::constant(z_.kappa[kz] * z_.half_shift[kz]);
+      const Lane<lanes> square = square_xy + z_.kappa[kz] * z_.kappa[kz];
+      const Lane<lanes> symbol = shift_ + viscosity_ * square;
+      const Lane<lanes> inverse = (symbol > 0).select(normalisation / symbol, 0.0);
+      const Lane<lanes> inverse_square = (square > 0).select(1 / square, 0.0);
+
+      const Modes fx = f(0), fy = f(1), fz = f(2);
+      const Modes p = inverse_square * (dx * fx + dy * fy + dz * fz);
+      (inverse * (fx - conj(dx) * p)).store(block_[0].data() + offset);
+      (inverse * (fy - conj(dy) * p)).store(block_[1].data() + offset);
+      (inverse * (fz - conj(dz) * p)).store(block_[2].data() + offset);
+      (normalisation * over_i(p)).store(block_[3].data() + offset);
+    }
+  }
+
+  void drive_mean(const Drive &drive) const
   {
     for (int c = 0; c < 3; ++c) {
-      Complex &mean = spectrum[c](0, 0, 0);
+      Complex &mean = *block_[c].data();
       if (hold_mean_)
         mean = drive.mean[c];
       else if (shift_ > 0)
@@ -54,47 +127,12 @@ class PeriodicModes : public ModeSolver {
     }
   }
 
-  void transform(const Plan &plan, const View<Complex> &component, int ky) const
-  {
-    auto *row = reinterpret_cast<fftw_complex *>(&component(modes_.lo[0], ky, 0));
-    fftw_execute_dft(plan.get(), row, row);
-  }
-
-  void project_row(const std::array<View<Complex>, 3> &spectrum, const View<Complex> *pressure,
-                   int ky, int kz) const
-  {
-    Complex *u = &spectrum[0](modes_.lo[0], ky, kz), *v = &spectrum[1](modes_.lo[0], ky, kz),
-            *w = &spectrum[2](modes_.lo[0], ky, kz);
-    Complex *p = pressure ? &(*pressure)(modes_.lo[0], ky, kz) : nullptr;
-    const double y = y_.kappa[ky - modes_.lo[1]], z = z_.kappa[kz];
-    const Complex ey = y_.half_shift[ky - modes_.lo[1]], ez = z_.half_shift[kz];
-    const double normalisation = 1.0 / grid_.size();
-    for (int m = 0; m < modes_.extent(0); ++m) {
-      const double x = x_.kappa[m], square = x * x + y * y + z * z;
-      const Complex ex = x_.half_shift[m];
-      const double inverse_square = square > 0 ? 1 / square : 0;
-      const double operator_symbol = shift_ + viscosity_ * square;
-      const double inverse = operator_symbol > 0 ? normalisation / operator_symbol : 0;
-      const Complex fu = times(u[m], ex), fv = times(v[m], ey), fw = times(w[m], ez);
-      const Complex divergence = (x * fu + y * fv + z * fw) * inverse_square;
-      u[m] = times(fu - x * divergence, std::conj(ex)) * inverse;
-      v[m] = times(fv - y * divergence, std::conj(ey)) * inverse;
-      w[m] = times(fw - z * divergence, std::conj(ez)) * inverse;
-      if (p) p[m] = times(divergence, {0, -1}) * normalisation;
-    }
-  }
-
-  /// Complex product without the library's treatment of infinities.
-  static Complex times(const Complex &a, const Complex &b)
-  {
-    return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-  }
-
   Grid grid_;
   Box modes_;
   double viscosity_, shift_;
   bool hold_mean_;
   Wavenumbers x_, y_, z_;
+  std::array<Buffer<Complex>, 4> block_;    ///< force, then velocity; pressure
   Plan forward_, backward_;
 };
 

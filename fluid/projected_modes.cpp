@@ -1,8 +1,7 @@
-#include "lanes.h"
+#include "banded.h"
 #include "mean_profile.h"
 #include "mode_solver.h"
-
-#include <tuple>
+#include "wave_vectors.h"
 
 namespace fluid {
 
@@ -31,38 +30,36 @@ class ProjectedModes : public ModeSolver {
   {
     const bool mean = modes_.contains({0, 0, 0});
     if (mean) mean_.solve(spectrum, shift_, drive);
-    for (int ky = modes_.lo[1]; ky < modes_.hi[1]; ++ky)
-      for (int kx = modes_.lo[0]; kx < modes_.hi[0]; kx += lanes)
-        solve_block(spectrum, kx, ky, std::min(lanes, modes_.hi[0] - kx));
+    const int columns = modes_.empty() ? 0 : modes_.extent(0) * modes_.extent(1);
+    for (int first = 0; first < columns; first += lanes)
+      solve_block(spectrum, first, std::min(lanes, columns - first));
     const View<Complex> pressure = kept_[0];
     if (mean) mean_.store(spectrum, &pressure);
   }
 
  private:
-  void solve_block(const std::array<View<Complex>, 3> &spectrum, int kx, int ky, int count)
+  /// Modes first, first + 1, ... of the plane.
+  void solve_block(const std::array<View<Complex>, 3> &spectrum, int first, int count)
   {
     const int n = grid_.cells[2];
     const double h = grid_.spacing[2], b = viscosity_ / (h * h);
     const double scale = 1.0 / (double(grid_.cells[0]) * grid_.cells[1]);
-    const WaveVectors wave(x_, y_, kx - modes_.lo[0], ky - modes_.lo[1], count);
-    const Lanes a = shift_ + viscosity_ * wave.kappa * wave.kappa;
+    const auto [kappa, along_x, along_y, ex, ey] = WaveVectors(x_, y_, modes_, first, count);
+    const Lanes a = shift_ + viscosity_ * kappa * kappa;
     const View<Complex> kept = kept_[0];
+    const auto at = [&](const View<Complex> &view, int k) {
+      return &view(modes_.lo[0], modes_.lo[1], k) + first;
+    };
 
-    for (int k = 0; k < n; ++k) load(kept, kx, ky, k, count, pressure_.re[k], pressure_.im[k]);
     for (int k = 0; k < n; ++k) {
-      Lanes u_re, u_im, v_re, v_im;
-      load(spectrum[0], kx, ky, k, count, u_re, u_im);
-      load(spectrum[1], kx, ky, k, count, v_re, v_im);
-      wave.to_centres(u_re, u_im, v_re, v_im);
-      across_.re[k] = scale * (wave.x * v_re - wave.y * u_re);
-      across_.im[k] = scale * (wave.x * v_im - wave.y * u_im);
-      along_.re[k] = -scale * (wave.x * u_im + wave.y * v_im) + wave.kappa * pressure_.re[k];
-      along_.im[k] = scale * (wave.x * u_re + wave.y * v_re) + wave.kappa * pressure_.im[k];
+      pressure_.set(k, Modes::load(at(kept, k), count));
+      const Modes u = ex * Modes::load(at(spectrum[0], k), count);
+      const Modes v = ey * Modes::load(at(spectrum[1], k), count);
+      across_.set(k, scale * (along_x * v - along_y * u));
+      along_.set(k, times_i(scale * (along_x * u + along_y * v)) + kappa * pressure_[k]);
       if (k == 0) continue;
-      Lanes w_re, w_im;
-      load(spectrum[2], kx, ky, k, count, w_re, w_im);
-      vertical_.re[k - 1] = scale * w_re - (pressure_.re[k] - pressure_.re[k - 1]) / h;
-      vertical_.im[k - 1] = scale * w_im - (pressure_.im[k] - pressure_.im[k - 1]) / h;
+      const Modes w = Modes::load(at(spectrum[2], k), count);
+      vertical_.set(k - 1, scale * w - (1 / h) * (pressure_[k] - pressure_[k - 1]));
     }
     across_.factor(a, b);
     across_.solve();
@@ -71,42 +68,26 @@ class ProjectedModes : public ModeSolver {
     vertical_.factor(a, b, ColumnEnds::zero);
     vertical_.solve();
 
-    const auto divergence = [&](const std::vector<Lanes> &along, const std::vector<Lanes> &w,
-                                int k) -> Lanes {
-      Lanes sum = wave.kappa * along[k];
-      if (k < n - 1) sum += w[k] / h;
-      if (k > 0) sum -= w[k - 1] / h;
-      return sum;
-    };
     for (int k = 0; k < n; ++k) {
-      const Lanes re = divergence(along_.re, vertical_.re, k),
-                  im = divergence(along_.im, vertical_.im, k);
-      potential_.re[k] = -shift_ * re;
-      potential_.im[k] = -shift_ * im;
-      pressure_.re[k] -= viscosity_ * re;
-      pressure_.im[k] -= viscosity_ * im;
+      Modes divergence = kappa * along_[k];
+      if (k < n - 1) divergence = divergence + (1 / h) * vertical_[k];
+      if (k > 0) divergence = divergence - (1 / h) * vertical_[k - 1];
+      potential_.set(k, -shift_ * divergence);
+      pressure_.set(k, pressure_[k] - viscosity_ * divergence);
     }
-    potential_.factor(wave.kappa * wave.kappa, 1 / (h * h), ColumnEnds::no_flux);
+    potential_.factor(kappa * kappa, 1 / (h * h), ColumnEnds::no_flux);
     potential_.solve();
 
+    const Lanes slope = kappa / shift_;
+    const double step = 1 / (h * shift_);
     for (int k = 0; k < n; ++k) {
-      const auto &[re, im] = std::tie(potential_.re, potential_.im);
-      store(kept, kx, ky, k, count, pressure_.re[k] + re[k], pressure_.im[k] + im[k]);
-      const Lanes slope = wave.kappa / shift_;
-      const Lanes along_re = along_.im[k] + slope * im[k], along_im = -along_.re[k] - slope * re[k];
-      Lanes u_re = wave.x * along_re - wave.y * across_.re[k],
-            u_im = wave.x * along_im - wave.y * across_.im[k];
-      Lanes v_re = wave.y * along_re + wave.x * across_.re[k],
-            v_im = wave.y * along_im + wave.x * across_.im[k];
-      wave.to_faces(u_re, u_im, v_re, v_im);
-      store(spectrum[0], kx, ky, k, count, u_re, u_im);
-      store(spectrum[1], kx, ky, k, count, v_re, v_im);
-      Lanes w_re = Lanes::Zero(), w_im = Lanes::Zero();
-      if (k > 0) {
-        w_re = vertical_.re[k - 1] - (re[k] - re[k - 1]) / (h * shift_);
-        w_im = vertical_.im[k - 1] - (im[k] - im[k - 1]) / (h * shift_);
-      }
-      store(spectrum[2], kx, ky, k, count, w_re, w_im);
+      (pressure_[k] + potential_[k]).store(at(kept, k), count);
+      const Modes along = over_i(along_[k] + slope * potential_[k]), across = across_[k];
+      (conj(ex) * (along_x * along - along_y * across)).store(at(spectrum[0], k), count);
+      (conj(ey) * (along_y * along + along_x * across)).store(at(spectrum[1], k), count);
+      Modes w = Modes::constant(0);
+      if (k > 0) w = vertical_[k - 1] - step * (potential_[k] - potential_[k - 1]);
+      w.store(at(spectrum[2], k), count);
     }
   }
 

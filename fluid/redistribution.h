@@ -2,8 +2,6 @@
 
 #include "exchange.h"
 
-#include <complex>
-
 namespace fluid {
 
 /// Exchange from one set of bricks (rank r owns from[r]) to another (to[r]).
@@ -25,24 +23,24 @@ Exchange<T> exchange_between(MPI_Comm comm, const std::vector<Box> &from,
 
 /// Moves a distributed array from one set of bricks (rank r owns from[r]) to another (to[r]).
 /// Moves nothing, and needs no memory, where every rank's brick is the same in both.
-template <typename T> class Redistribution {
+class Redistribution {
  public:
   Redistribution() = default;
   Redistribution(MPI_Comm comm, const std::vector<Box> &from, const std::vector<Box> &to) :
       identity_(from == to)
   {
-    if (!identity_) exchange_ = exchange_between<T>(comm, from, to);
+    if (!identity_) exchange_ = exchange_between<double>(comm, from, to);
   }
 
   bool identity() const { return identity_; }
 
   template <std::size_t N>
-  void forward(const std::array<View<T>, N> &from, const std::array<View<T>, N> &to)
+  void forward(const std::array<View<double>, N> &from, const std::array<View<double>, N> &to)
   {
     exchange_.copy(from, to);
   }
   template <std::size_t N>
-  void backward(const std::array<View<T>, N> &from, const std::array<View<T>, N> &to)
+  void backward(const std::array<View<double>, N> &from, const std::array<View<double>, N> &to)
   {
     exchange_.copy_back(from, to);
   }
@@ -52,7 +50,7 @@ template <typename T> class Redistribution {
 
  private:
   bool identity_ = true;
-  Exchange<T> exchange_;
+  Exchange<double> exchange_;
 };
 
 }    // namespace fluid

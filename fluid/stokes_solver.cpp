@@ -2,9 +2,9 @@
 
 namespace fluid {
 
-StokesSolver::StokesSolver(const Grid &grid, const Decomposition &decomposition, const Box &storage,
-                           double viscosity, double shift, bool hold_mean, Scheme scheme) :
-    fourier_(grid, decomposition, storage),
+StokesSolver::StokesSolver(const Grid &grid, const Decomposition &decomposition, double viscosity,
+                           double shift, bool hold_mean, Scheme scheme) :
+    fourier_(grid, decomposition),
     modes_(!grid.walls ? make_periodic_modes(grid, fourier_.modes(), viscosity, shift, hold_mean)
            : scheme == Scheme::projection
                ? make_projected_modes(grid, fourier_.modes(), viscosity, shift)

@@ -9,9 +9,9 @@ namespace fluid {
 /// faces of a distributed staggered grid, exact for the discrete equations.
 class StokesSolver {
  public:
-  /// `storage` is the box over which the fields are stored; `hold_mean` as for make_periodic_modes.
-  StokesSolver(const Grid &grid, const Decomposition &decomposition, const Box &storage,
-               double viscosity, double shift, bool hold_mean, Scheme scheme = Scheme::coupled);
+  /// `hold_mean` as for make_periodic_modes.
+  StokesSolver(const Grid &grid, const Decomposition &decomposition, double viscosity, double shift,
+               bool hold_mean, Scheme scheme = Scheme::coupled);
 
   void set_shift(double shift) { modes_->set_shift(shift); }
 

@@ -1,14 +1,10 @@
 #include "banded.h"
-#include "mode_solver.h"
-#include "wavenumbers.h"
+#include "mean_profile.h"
+#include "wave_vectors.h"
 
 namespace fluid {
 
 namespace {
-
-// Modes of one ky are solved in blocks of neighbouring kx, one per lane.
-constexpr int lanes = 8;
-using Lanes = Lane<lanes>;
 
 /// With Fourier modes in x and y the velocity splits into the part along the wave vector, the part across
 /// it, and w. The part across obeys a Helmholtz equation in z (tridiagonal). Continuity gives the part along
@@ -22,10 +18,7 @@ class WalledModes : public ModeSolver {
       grid_(grid), modes_(modes), viscosity_(viscosity), shift_(shift),
       x_(grid.cells[0], grid.spacing[0], modes.lo[0], modes.hi[0]),
       y_(grid.cells[1], grid.spacing[1], modes.lo[1], modes.hi[1]), across_(grid.cells[2]),
-      along_(grid.cells[2]),
-      vertical_(grid.cells[2] + 1), mean_velocity_{std::vector<double>(grid.cells[2]),
-                                                   std::vector<double>(grid.cells[2])},
-      mean_pressure_(grid.cells[2])
+      along_(grid.cells[2]), vertical_(grid.cells[2]), mean_(grid, viscosity)
   {
   }
 
@@ -35,165 +28,67 @@ class WalledModes : public ModeSolver {
              const View<Complex> *pressure) override
   {
     const bool mean = modes_.contains({0, 0, 0});
-    if (mean) solve_mean(spectrum, drive);
-    for (int ky = modes_.lo[1]; ky < modes_.hi[1]; ++ky)
-      for (int kx = modes_.lo[0]; kx < modes_.hi[0]; kx += lanes)
-        solve_block(spectrum, pressure, kx, ky, std::min(lanes, modes_.hi[0] - kx));
-    if (mean) store_mean(spectrum, pressure);
+    if (mean) mean_.solve(spectrum, shift_, drive);
+    const int columns = modes_.empty() ? 0 : modes_.extent(0) * modes_.extent(1);
+    for (int first = 0; first < columns; first += lanes)
+      solve_block(spectrum, pressure, first, std::min(lanes, columns - first));
+    if (mean) mean_.store(spectrum, pressure);
   }
 
  private:
-  double over_h2() const { return viscosity_ / (grid_.spacing[2] * grid_.spacing[2]); }
-  double normalisation() const { return 1.0 / (double(grid_.cells[0]) * grid_.cells[1]); }
-
-  /// Mean profiles of u, v and p (that of w is zero): the plates drive the flow through these only.
-  void solve_mean(const std::array<View<Complex>, 3> &spectrum, const Drive &drive)
-  {
-    const int n = grid_.cells[2];
-    const double b = over_h2(), scale = normalisation();
-    Lanes diagonal_shift;
-    diagonal_shift.setConstant(shift_);
-    across_.factor(diagonal_shift, b);
-    for (int c = 0; c < 2; ++c) {
-      for (int k = 0; k < n; ++k) {
-        across_.re[k].setConstant(spectrum[c](0, 0, k).real() * scale + drive.body[c]);
-        across_.im[k].setZero();
-      }
-      across_.re[0] += 2 * b * drive.walls.lower[c];
-      across_.re[n - 1] += 2 * b * drive.walls.upper[c];
-      across_.solve();
-      for (int k = 0; k < n; ++k) mean_velocity_[c][k] = across_.re[k][0];
-    }
-
-    double mean = 0;
-    for (int k = 1; k < n; ++k) {
-      const double gradient = spectrum[2](0, 0, k).real() * scale + drive.body[2];
-      mean_pressure_[k] = mean_pressure_[k - 1] + grid_.spacing[2] * gradient;
-      mean += mean_pressure_[k] / n;
-    }
-    mean_pressure_offset_ = mean;
-  }
-
-  /// The mean mode goes through solve_block as a lane without meaning and gets its values here.
-  void store_mean(const std::array<View<Complex>, 3> &spectrum, const View<Complex> *pressure) const
-  {
-    for (int k = 0; k < grid_.cells[2]; ++k) {
-      for (int c = 0; c < 2; ++c) spectrum[c](0, 0, k) = mean_velocity_[c][k];
-      spectrum[2](0, 0, k) = 0;
-      if (pressure) (*pressure)(0, 0, k) = mean_pressure_[k] - mean_pressure_offset_;
-    }
-  }
-
+  /// Modes first, first + 1, ... of the plane.
   void solve_block(const std::array<View<Complex>, 3> &spectrum, const View<Complex> *pressure,
-                   int kx, int ky, int count)
+                   int first, int count)
   {
     const int n = grid_.cells[2];
-    const double h = grid_.spacing[2], b = over_h2(), scale = normalisation();
-    const double y = y_.kappa[ky - modes_.lo[1]];
-    const Complex ey = y_.half_shift[ky - modes_.lo[1]];
+    const double h = grid_.spacing[2], b = viscosity_ / (h * h);
+    const double scale = 1.0 / (double(grid_.cells[0]) * grid_.cells[1]);
 
-    Lanes along_x = Lanes::Ones(), along_y = Lanes::Zero(), kappa = Lanes::Ones();
-    Lanes ex_re = Lanes::Zero(), ex_im = Lanes::Zero();
-    for (int m = 0; m < count; ++m) {
-      const double x = x_.kappa[kx - modes_.lo[0] + m], magnitude = std::hypot(x, y);
-      ex_re[m] = x_.half_shift[kx - modes_.lo[0] + m].real();
-      ex_im[m] = x_.half_shift[kx - modes_.lo[0] + m].imag();
-      if (magnitude == 0) continue;
-      kappa[m] = magnitude;
-      along_x[m] = x / magnitude;
-      along_y[m] = y / magnitude;
-    }
+    const auto [kappa, along_x, along_y, ex, ey] = WaveVectors(x_, y_, modes_, first, count);
     const Lanes a = shift_ + viscosity_ * kappa * kappa, q = kappa * kappa * h * h;
-
-    // Faces to centres, then along (times i, which makes the system real) and across the wave vector.
-    for (int k = 0; k < n; ++k) {
-      Lanes u_re, u_im, v_re, v_im;
-      load(spectrum[0], kx, ky, k, count, u_re, u_im);
-      load(spectrum[1], kx, ky, k, count, v_re, v_im);
-      load(spectrum[2], kx, ky, k, count, vertical_.re[k], vertical_.im[k]);
-      rotate(u_re, u_im, ex_re, ex_im);
-      rotate(v_re, v_im, Lanes::Constant(ey.real()), Lanes::Constant(ey.imag()));
-      across_.re[k] = scale * (along_x * v_re - along_y * u_re);
-      across_.im[k] = scale * (along_x * v_im - along_y * u_im);
-      along_.re[k] = -scale * (along_x * u_im + along_y * v_im);
-      along_.im[k] = scale * (along_x * u_re + along_y * v_re);
-    }
-
-    across_.factor(a, b);
-    across_.solve();
-
-    for (int k = 1; k < n; ++k) {
-      vertical_.re[k] = q * scale * vertical_.re[k] + kappa * h * (along_.re[k] - along_.re[k - 1]);
-      vertical_.im[k] = q * scale * vertical_.im[k] + kappa * h * (along_.im[k] - along_.im[k - 1]);
-    }
-    vertical_.factor(a, q, b);
-    vertical_.solve();
-
-    const Lanes inverse_kappa_h = 1 / (kappa * h);
-    const auto continuity = [&](const std::vector<Lanes> &w, int k) -> Lanes {
-      return (w[k] - w[k + 1]) * inverse_kappa_h;
+    const Lanes scale_w = q * scale, kappa_h = kappa * h, inverse_kappa_h = 1 / kappa_h;
+    const auto at = [&](const View<Complex> &view, int k) {
+      return &view(modes_.lo[0], modes_.lo[1], k) + first;
     };
-    if (pressure)
-      for (int k = 0; k < n; ++k) {
-        const auto momentum = [&](const std::vector<Lanes> &w,
-                                  const std::vector<Lanes> &f) -> Lanes {
-          Lanes applied = (a + 2 * b) * continuity(w, k);
-          applied -= k > 0 ? Lanes(b * continuity(w, k - 1)) : Lanes(-b * continuity(w, k));
-          applied -= k < n - 1 ? Lanes(b * continuity(w, k + 1)) : Lanes(-b * continuity(w, k));
-          return (applied - f[k]) / kappa;
-        };
-        store(*pressure, kx, ky, k, count, momentum(vertical_.re, along_.re),
-              momentum(vertical_.im, along_.im));
-      }
 
+    // The part along the wave vector is taken times i, which makes the system for w real.
+    across_.begin(a, b);
+    vertical_.begin(a, q, b);
     for (int k = 0; k < n; ++k) {
-      const Lanes along_re = continuity(vertical_.im, k), along_im = -continuity(vertical_.re, k);
-      Lanes u_re = along_x * along_re - along_y * across_.re[k],
-            u_im = along_x * along_im - along_y * across_.im[k];
-      Lanes v_re = along_y * along_re + along_x * across_.re[k],
-            v_im = along_y * along_im + along_x * across_.im[k];
-      rotate(u_re, u_im, ex_re, -ex_im);
-      rotate(v_re, v_im, Lanes::Constant(ey.real()), Lanes::Constant(-ey.imag()));
-      store(spectrum[0], kx, ky, k, count, u_re, u_im);
-      store(spectrum[1], kx, ky, k, count, v_re, v_im);
-      store(spectrum[2], kx, ky, k, count, vertical_.re[k], vertical_.im[k]);
+      const Modes u = ex * Modes::load(at(spectrum[0], k), count);
+      const Modes v = ey * Modes::load(at(spectrum[1], k), count);
+      along_.set(k, times_i(scale * (along_x * u + along_y * v)));
+      across_.set(k, scale * (along_x * v - along_y * u));
+      across_.factor_row(k);
+      across_.eliminate(k);
+      if (k == 0) continue;
+      const Modes w = Modes::load(at(spectrum[2], k), count);
+      vertical_.set(k, scale_w * w + kappa_h * (along_[k] - along_[k - 1]));
+      vertical_.factor_row(k);
+      vertical_.eliminate(k);
     }
-  }
 
-  static void load(const View<Complex> &from, int kx, int ky, int k, int count, Lanes &re,
-                   Lanes &im)
-  {
-    const Complex *row = &from(kx, ky, k);
-    if (count == lanes) {
-      for (int m = 0; m < lanes; ++m) {
-        re[m] = row[m].real();
-        im[m] = row[m].imag();
-      }
-      return;
+    const auto continuity = [&](int k) {
+      return inverse_kappa_h * (vertical_[k] - vertical_[k + 1]);
+    };
+    for (int k = n - 1; k >= 0; --k) {
+      across_.substitute(k);
+      if (k > 0) vertical_.substitute(k);
+      const Modes along = over_i(continuity(k)), across = across_[k];
+      (conj(ex) * (along_x * along - along_y * across)).store(at(spectrum[0], k), count);
+      (conj(ey) * (along_y * along + along_x * across)).store(at(spectrum[1], k), count);
+      vertical_[k].store(at(spectrum[2], k), count);
     }
-    re.setZero();
-    im.setZero();
-    for (int m = 0; m < count; ++m) {
-      re[m] = row[m].real();
-      im[m] = row[m].imag();
+    if (!pressure) return;
+
+    const Lanes inverse_kappa = 1 / kappa;
+    for (int k = 0; k < n; ++k) {
+      const Modes here = continuity(k);
+      const Modes below = k > 0 ? continuity(k - 1) : -here;
+      const Modes above = k < n - 1 ? continuity(k + 1) : -here;
+      const Modes applied = (a + 2 * b) * here - b * (below + above);
+      (inverse_kappa * (applied - along_[k])).store(at(*pressure, k), count);
     }
-  }
-
-  static void store(const View<Complex> &to, int kx, int ky, int k, int count, const Lanes &re,
-                    const Lanes &im)
-  {
-    Complex *row = &to(kx, ky, k);
-    if (count == lanes)
-      for (int m = 0; m < lanes; ++m) row[m] = {re[m], im[m]};
-    else
-      for (int m = 0; m < count; ++m) row[m] = {re[m], im[m]};
-  }
-
-  static void rotate(Lanes &re, Lanes &im, const Lanes &cosine, const Lanes &sine)
-  {
-    const Lanes turned = re * cosine - im * sine;
-    im = re * sine + im * cosine;
-    re = turned;
   }
 
   Grid grid_;
@@ -203,9 +98,7 @@ class WalledModes : public ModeSolver {
   HelmholtzColumns<lanes> across_;
   Columns<lanes> along_;
   VerticalColumns<lanes> vertical_;
-  std::array<std::vector<double>, 2> mean_velocity_;
-  std::vector<double> mean_pressure_;
-  double mean_pressure_offset_ = 0;
+  MeanProfile mean_;
 };
 
 }    // namespace

@@ -385,7 +385,7 @@ void FixRBCIB::couple_masses()
   }
 
   const auto outcome =
-      direct.start_step(fluid_fix->flow(), dt,
+      direct.advance(fluid_fix->flow(), dt,
                         {kernel, markers(), rows(atom->x), applied.data(), resistance.data(),
                          target.data(), inertial.data(), rows(atom->v), atom->nlocal});
   if (outcome.outside >= 0) stop_outside(outcome.outside);

@@ -53,7 +53,7 @@ TEST(Fourier, ForwardIsTheSumOverThePlane)
   for (const auto &[name, decomposition] : layouts(grid)) {
     SCOPED_TRACE(name);
     const VectorField field = guarded_noise(decomposition.mine());
-    Fourier fourier(grid, decomposition, field.box());
+    Fourier fourier(grid, decomposition);
     expect_cover(grid, fourier.modes());
     fourier.forward(field.views());
     double error = 0;
@@ -80,7 +80,7 @@ TEST(Fourier, ForwardAndBackwardGiveTheNumberOfPoints)
       VectorField result(field.box());
       for (int c = 0; c < 3; ++c)
         set(result[c], field.box(), [](int, int, int) { return undefined; });
-      Fourier fourier(grid_of(cells), decomposition, field.box());
+      Fourier fourier(grid_of(cells), decomposition);
       expect_cover(grid_of(cells), fourier.modes());
       fourier.forward(field.views());
       fourier.backward(result.views());
@@ -117,7 +117,7 @@ TEST(Fourier, APlaneWaveIsOneMode)
       set(field[c], brick, [&, nx = nx, ny = ny](int i, int j, int k) {
         return (c + 1) * k * std::cos(2 * pi * (double(mx) * i / nx + double(my) * j / ny) + phase);
       });
-    Fourier fourier(grid, decomposition, brick);
+    Fourier fourier(grid, decomposition);
     fourier.forward(field.views());
     double error = 0;
     for (int c = 0; c < 3; ++c)
@@ -135,7 +135,7 @@ std::array<long, 2> messages(const Grid &grid, const Index3 &parts)
 {
   const Decomposition decomposition = even(grid, parts);
   const VectorField field = guarded_noise(decomposition.mine());
-  Fourier fourier(grid, decomposition, field.box());
+  Fourier fourier(grid, decomposition);
   fourier.forward(field.views());
   const long forward = fourier.traffic().messages;
   fourier.backward(field.views());

@@ -14,8 +14,7 @@ class StokesCase {
       grid_(grid),
       brick_(decomposition.mine()), viscosity_(viscosity), shift_(shift), drive_(drive),
       halo_(grid, decomposition, 1), force_(halo_.box()), velocity_(halo_.box()),
-      pressure_(halo_.box()),
-      solver_(grid, decomposition, halo_.box(), viscosity, shift, shift == 0)
+      pressure_(halo_.box()), solver_(grid, decomposition, viscosity, shift, shift == 0)
   {
   }
   StokesCase(const StokesCase &) = delete;

@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# Times the solver's parts on one rank, and on the given number of ranks; prints a table and writes kernels.csv.
+#   usage: kernels.sh [ranks]
+. "$(dirname "$0")/../scripts/common.sh"
+
+"$ROOT/scripts/build.sh" 4Feb2025 kernels
+
+results=()
+for ranks in $(printf '%s\n' 1 "${1:-1}" | sort -nu); do
+  say "timing on $ranks rank(s)"
+  result=$BUILD/kernels.$ranks.json
+  mpiexec -n "$ranks" "$BUILD/kernels" --benchmark_format=json > "$result"
+  results+=("$result")
+done
+"$PYTHON" "$ROOT/bench/kernels.py" "$ROOT/bench/kernels.csv" "${results[@]}"
