@@ -108,6 +108,7 @@ void Flow::start_step(double dt)
     solver_.velocity(velocity_, drive, velocity_);
   }
   previous_walls_ = walls_;
+  previous_shared_ = shared_;
   walls_ = drive.walls;
   shared_ = false;
   stepped_ = true;
@@ -117,6 +118,7 @@ void Flow::finish_step()
 {
   walls_ = drive.walls;
   if (!damped()) {
+    shared_ = shared_ && previous_shared_;
     const std::size_t n = 3 * velocity_.box().size();
     double *const u = velocity_[0].data;
     const double *const start = previous_[0].data;

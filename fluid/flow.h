@@ -112,6 +112,7 @@ class Flow {
   double shift_ = 0, dt_ = 0;
   VectorField previous_;    ///< velocity at the start of the step
   Walls previous_walls_;
+  bool previous_shared_ = false;    ///< the ghosts of `previous_` are filled
   VectorField
       rhs_;    ///< of the momentum equation; without convection only where the pressure is asked for
   bool stepped_ = false;    ///< since construction
