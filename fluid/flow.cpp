@@ -14,13 +14,17 @@ template <typename Row> void for_each_row(const Box &box, Row row)
     for (int j = box.lo[1]; j < box.hi[1]; ++j) row(j, k);
 }
 
-/// y += factor x over all that both store; they are stored alike.
-void add(const VectorField &y, double factor, const VectorField &x)
+/// y += factor x over the brick and, where both are stored alike, its ghosts.
+void add(const Box &brick, const VectorField &y, double factor, const VectorField &x)
 {
-  const std::size_t n = 3 * y.box().size();
-  double *const to = y[0].data;
-  const double *const from = x[0].data;
-  for (std::size_t i = 0; i < n; ++i) to[i] += factor * from[i];
+  const Box &box = x.box() == y.box() ? x.box() : brick;
+  const int first = box.lo[0], n = box.extent(0);
+  for (int c = 0; c < 3; ++c)
+    for_each_row(box, [&, from = x[c], to = y[c]](int j, int k) {
+      const double *const x_row = &from(first, j, k);
+      double *const y_row = &to(first, j, k);
+      for (int i = 0; i < n; ++i) y_row[i] += factor * x_row[i];
+    });
 }
 
 }    // namespace
@@ -192,8 +196,9 @@ int Flow::respond(KernelKind kernel, const Markers &markers, const double *posit
 
 void Flow::add_response(double factor)
 {
-  add(force_, factor, response_force_);
-  add(velocity_, factor, response_);
+  add(brick(), force_, factor, response_force_);
+  if (regime_.inertia == Inertia::convective) add(brick(), rhs_, factor, response_force_);
+  add(brick(), velocity_, factor, response_);
   for (int c = 0; c < 3; ++c) {
     lower_direct_[c] += factor * response_lower_[c];
     upper_direct_[c] += factor * response_upper_[c];
@@ -279,6 +284,7 @@ void Flow::restore(const double *history)
   if (const auto *kept = solver_.kept_modes())
     cut_out(kept->box(), all_modes(grid_), reinterpret_cast<const Complex *>(next), *kept);
   shared_ = stepped_ = false;
+  if (pressure_.bytes()) pressure_.clear();
 }
 
 void Flow::take_over(Flow &old)

@@ -54,7 +54,7 @@ class Flow {
                    double *velocity) const;
 
   /// Velocities at the markers that further forces on them would add now (solve, start_step): the mobility of the
-  /// markers. `add_response` adds a multiple of these forces and of their flow. Returns as spread.
+  /// markers, by the coupled scheme. `add_response` adds a multiple of these forces and of their flow. Returns as spread.
   int respond(KernelKind kernel, const Markers &markers, const double *position,
               const double *force, double *velocity);
   void add_response(double factor);
@@ -119,7 +119,7 @@ class Flow {
   double shift_ = 0, dt_ = 0;
   VectorField previous_;    ///< velocity at the start of the step
   Walls previous_walls_;
-  bool previous_shared_ = false;
+  bool previous_shared_ = false;    ///< the ghosts of `previous_` are filled
   VectorField
       rhs_;    ///< of the momentum equation; without convection only where the pressure is asked for
   bool stepped_ = false;    ///< since construction

@@ -1,11 +1,62 @@
 #pragma once
 
-#include "flow.h"
-#include "test_support.h"
-
-#include <functional>
+#include "flow_support.h"
 
 namespace test {
+
+/// A number with its derivatives in x, y, z and time, and its second ones in x, y and z.
+struct Jet {
+  double value = 0;
+  std::array<double, 4> slope{};
+  Vec3 curvature{};
+
+  Jet(double value = 0) : value(value) {}
+  static Jet variable(int direction, double value)
+  {
+    Jet jet(value);
+    jet.slope[direction] = 1;
+    return jet;
+  }
+
+  /// A function of this one, from its value and its first two derivatives.
+  Jet through(double f, double first, double second) const
+  {
+    Jet jet(f);
+    for (int d = 0; d < 4; ++d) jet.slope[d] = first * slope[d];
+    for (int d = 0; d < 3; ++d)
+      jet.curvature[d] = first * curvature[d] + second * slope[d] * slope[d];
+    return jet;
+  }
+
+  friend Jet operator+(Jet a, const Jet &b)
+  {
+    a.value += b.value;
+    for (int d = 0; d < 4; ++d) a.slope[d] += b.slope[d];
+    for (int d = 0; d < 3; ++d) a.curvature[d] += b.curvature[d];
+    return a;
+  }
+  friend Jet operator*(const Jet &a, const Jet &b)
+  {
+    Jet jet(a.value * b.value);
+    for (int d = 0; d < 4; ++d) jet.slope[d] = a.slope[d] * b.value + a.value * b.slope[d];
+    for (int d = 0; d < 3; ++d)
+      jet.curvature[d] =
+          a.curvature[d] * b.value + 2 * a.slope[d] * b.slope[d] + a.value * b.curvature[d];
+    return jet;
+  }
+  friend Jet operator-(const Jet &a) { return a.through(-a.value, -1, 0); }
+  friend Jet operator-(const Jet &a, const Jet &b) { return a + -b; }
+  friend Jet sin(const Jet &a)
+  {
+    const double s = std::sin(a.value), c = std::cos(a.value);
+    return a.through(s, c, -s);
+  }
+  friend Jet cos(const Jet &a)
+  {
+    const double s = std::sin(a.value), c = std::cos(a.value);
+    return a.through(c, -s, -c);
+  }
+};
 
 /// A flow that is given, and the force density that makes it: between plates that move in time at z = 0 and
 /// z = height (no slip), or triply periodic.
@@ -15,55 +66,24 @@ struct Manufactured {
   double viscosity = 0.05, density = 1.3;
   Inertia inertia = Inertia::convective;
 
-  double phase(double t) const { return std::sin(3 * t + 0.4); }
-
-  /// Two rolls, a flow across them, and a mean flow, each with its own course in time.
   double velocity(int c, const Vec3 &x, double t) const
   {
-    const double a = 2 * pi / size[0], b = 2 * pi / size[1], g = (walls ? pi : 2 * pi) / size[2];
-    const double z = x[2];
-    const double rise = walls ? std::pow(std::sin(g * z), 2) : std::sin(g * z);
-    const double slope = walls ? g * std::sin(2 * g * z) : g * std::cos(g * z);
-    const double one = phase(t), other = std::cos(2 * t), third = std::sin(5 * t);
-    const Vec3 low = plate(false, t), high = plate(true, t);
-    switch (c) {
-      case 0:
-        return -one / a * std::sin(a * x[0]) * slope + mean(low[0], high[0], z, t);
-      case 1:
-        return -other / b * std::sin(b * x[1] + 1) * slope + mean(low[1], high[1], z, t) +
-               third * std::sin(a * x[0]) * rise;
-      default:
-        return (one * std::cos(a * x[0]) + other * std::cos(b * x[1] + 1)) * rise;
-    }
+    return velocity(std::array<double, 3>{x[0], x[1], x[2]}, t)[c];
   }
-
-  double pressure(const Vec3 &x, double t) const
-  {
-    return std::cos(4 * t) * std::sin(2 * pi * x[0] / size[0]) * std::cos(2 * pi * x[1] / size[1]) *
-           std::cos(2 * pi * x[2] / size[2]);
-  }
-
-  Vec3 plate(bool upper, double t) const
-  {
-    if (!walls) return {0, 0, 0};
-    return upper ? Vec3{0.6 * std::cos(4 * t), 0.3 * std::sin(2 * t), 0}
-                 : Vec3{-0.4 * std::sin(3 * t), 0.2, 0};
-  }
+  double pressure(const Vec3 &x, double t) const { return pressure<double>(x, t); }
+  Vec3 plate(bool upper, double t) const { return plate<double>(upper, t); }
 
   /// density (du/dt + u . grad u) + grad p - viscosity lap u
   double force(int c, const Vec3 &x, double t) const
   {
-    const auto shifted = [&](int d, double by) {
-      Vec3 y = x;
-      y[d] += by;
-      return y;
-    };
-    double sum = density * derivative([&](double s) { return velocity(c, x, t + s); }) +
-                 derivative([&](double s) { return pressure(shifted(c, s), t); });
+    const std::array<Jet, 3> at{Jet::variable(0, x[0]), Jet::variable(1, x[1]),
+                                Jet::variable(2, x[2])};
+    const Jet time = Jet::variable(3, t);
+    const std::array<Jet, 3> u = velocity(at, time);
+    double sum = density * u[c].slope[3] + pressure(at, time).slope[c];
     for (int d = 0; d < 3; ++d) {
-      const auto along = [&](double s) { return velocity(c, shifted(d, s), t); };
-      if (inertia == Inertia::convective) sum += density * velocity(d, x, t) * derivative(along);
-      sum -= viscosity * second_derivative(along);
+      if (inertia == Inertia::convective) sum += density * u[d].value * u[c].slope[d];
+      sum -= viscosity * u[c].curvature[d];
     }
     return sum;
   }
@@ -76,29 +96,44 @@ struct Manufactured {
   }
 
  private:
-  double mean(double low, double high, double z, double t) const
+  /// Two rolls, a flow across them, and a mean flow, each with its own course in time.
+  template <typename T> std::array<T, 3> velocity(const std::array<T, 3> &x, const T &t) const
   {
-    if (!walls) return 0.3 * std::sin(2 * t);
-    const double s = z / size[2];
-    return low + (high - low) * s + std::cos(t) * s * (1 - s);
+    using std::cos, std::sin;
+    const double a = 2 * pi / size[0], b = 2 * pi / size[1], g = (walls ? pi : 2 * pi) / size[2];
+    const T sine = sin(g * x[2]), cosine = cos(g * x[2]);
+    const T rise = walls ? sine * sine : sine, slope = g * (walls ? 2 * sine * cosine : cosine);
+    const T ax = a * x[0], by = b * x[1] + 1;
+    const T one = sin(3 * t + 0.4), other = cos(2 * t), third = sin(5 * t);
+    const std::array<T, 3> mean = mean_flow(x[2], t);
+    return {-(1 / a) * one * sin(ax) * slope + mean[0],
+            -(1 / b) * other * sin(by) * slope + third * sin(ax) * rise + mean[1],
+            (one * cos(ax) + other * cos(by)) * rise};
   }
 
-  // Central differences of order 8: round-off, not the step, limits them.
-  static constexpr double step = 0.01;
-
-  template <typename F> static double derivative(const F &f)
+  template <typename T> T pressure(const std::array<T, 3> &x, const T &t) const
   {
-    const double w[]{4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
-    double sum = 0;
-    for (int n = 1; n <= 4; ++n) sum += w[n - 1] * (f(n * step) - f(-n * step));
-    return sum / step;
+    using std::cos, std::sin;
+    return cos(4 * t) * sin(2 * pi / size[0] * x[0]) * cos(2 * pi / size[1] * x[1]) *
+           cos(2 * pi / size[2] * x[2]);
   }
-  template <typename F> static double second_derivative(const F &f)
+
+  template <typename T> std::array<T, 3> plate(bool upper, const T &t) const
   {
-    const double w[]{8.0 / 5, -1.0 / 5, 8.0 / 315, -1.0 / 560};
-    double sum = -205.0 / 72 * f(0);
-    for (int n = 1; n <= 4; ++n) sum += w[n - 1] * (f(n * step) + f(-n * step));
-    return sum / (step * step);
+    using std::cos, std::sin;
+    if (!walls) return {0, 0, 0};
+    if (upper) return {0.6 * cos(4 * t), 0.3 * sin(2 * t), 0};
+    return {-0.4 * sin(3 * t), 0.2, 0};
+  }
+
+  template <typename T> std::array<T, 3> mean_flow(const T &z, const T &t) const
+  {
+    using std::cos, std::sin;
+    if (!walls) return {0.3 * sin(2 * t), 0.3 * sin(2 * t), 0};
+    const std::array<T, 3> low = plate(false, t), high = plate(true, t);
+    const T s = 1 / size[2] * z, parabola = cos(t) * s * (1 - s);
+    return {low[0] + (high[0] - low[0]) * s + parabola, low[1] + (high[1] - low[1]) * s + parabola,
+            0};
   }
 };
 
@@ -114,7 +149,7 @@ class Follower {
     flow_.set_velocity([&](int c, int i, int j, int k) {
       return exact_.velocity(c, location(flow_.grid(), c, i, j, k), 0);
     });
-    drive(0, flow_.drive);
+    flow_.drive = drive(0);
   }
 
   Flow &flow() { return flow_; }
@@ -123,18 +158,9 @@ class Follower {
   void step(double dt)
   {
     const double end = time_ + dt;
-    Drive start, finish;
-    drive(time_, start);
-    drive(end, finish);
-    for (int d = 0; d < 3; ++d) {
-      flow_.drive.walls.lower[d] = 0.5 * (start.walls.lower[d] + finish.walls.lower[d]);
-      flow_.drive.walls.upper[d] = 0.5 * (start.walls.upper[d] + finish.walls.upper[d]);
-    }
     set_vector(flow_.force(), flow_.grid(), flow_.brick(),
                [&](int c, const Vec3 &x) { return exact_.force(c, x, time_ + 0.5 * dt); });
-    flow_.start_step(dt);
-    flow_.drive = finish;
-    flow_.finish_step();
+    step_to(flow_, dt, drive(end));
     time_ = end;
   }
 
@@ -162,9 +188,11 @@ class Follower {
   }
 
  private:
-  void drive(double t, Drive &drive) const
+  Drive drive(double t) const
   {
+    Drive drive;
     drive.walls = {exact_.plate(false, t), exact_.plate(true, t)};
+    return drive;
   }
 
   const Manufactured &exact_;
