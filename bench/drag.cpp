@@ -8,11 +8,10 @@ using namespace test;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 void print(const char *setting, double parameter, const char *kernel, double spacing, double radius,
            double marker_radius, const Drag &drag, double factor, double reference)
 {
+  if (rank() != 0) return;
   std::printf("%s,%g,%s,%g,%.4f,%.4f,%d,%d,%.5f,%.5f,%.3f\n", setting, parameter, kernel, spacing,
               radius, marker_radius, drag.markers, drag.solves, factor, reference,
               100 * (factor / reference - 1));
@@ -57,7 +56,7 @@ void plates(KernelKind kernel, const char *name, double spacing, double radius, 
     result = drag(grid, kernel, sphere({n / 2 + 0.1, n / 2 + 0.2, gap}, markers, spacing));
     factor[box] = result.force / (6 * pi * exact_radius);
   }
-  print(middle ? "plates, middle" : "plates, quarter", x, name, spacing, exact_radius, markers,
+  print(middle ? "plates middle" : "plates quarter", x, name, spacing, exact_radius, markers,
         result, factor[1] + (factor[1] - factor[0]) / 3, reference);
 }
 
@@ -66,16 +65,19 @@ void plates(KernelKind kernel, const char *name, double spacing, double radius, 
 int main(int argc, char **argv)
 {
   MPI_Init(&argc, &argv);
-  std::puts("setting,parameter,kernel,marker_spacing,radius_over_dx,marker_radius_over_dx,markers,"
-            "solves,drag_factor,reference,error_percent");
-  constexpr double spacing = 1.2;
+  if (rank() == 0)
+    std::puts(
+        "setting,parameter,kernel,marker_spacing,radius_over_dx,marker_radius_over_dx,markers,"
+        "solves,drag_factor,reference,error_percent");
+  constexpr double spacing = 1.5;
   const std::pair<KernelKind, const char *> kernels[]{{KernelKind::peskin4, "peskin4"},
                                                       {KernelKind::roma3, "roma3"}};
   for (const auto &[kernel, name] : kernels)
-    for (int n : {16, 24, 32, 48, 64}) array(kernel, name, spacing, n);
+    for (int n : {16, 24, 32, 48}) array(kernel, name, spacing, n);
   for (const auto &[kernel, name] : kernels)
-    for (double radius : {3.0, 4.5, 6.0})
-      for (double x : {0.2, 0.3, 0.5})
-        for (bool middle : {true, false}) plates(kernel, name, spacing, radius, x, middle);
+    for (double x : {0.2, 0.3, 0.5}) {
+      for (double radius : {3.0, 4.0, 6.0}) plates(kernel, name, spacing, radius, x, true);
+      for (double radius : {3.0, 4.0}) plates(kernel, name, spacing, radius, x, false);
+    }
   MPI_Finalize();
 }
