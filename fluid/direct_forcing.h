@@ -42,6 +42,9 @@ class DirectForcing {
   /// Takes the place of clear_force .. interpolate of Flow; dt counts with inertia only.
   Outcome advance(Flow &flow, double dt, const Problem &problem);
 
+  /// Memory kept from call to call, in numbers.
+  std::size_t numbers() const { return 5 * total_.capacity(); }
+
  private:
   std::vector<double> total_, residual_, direction_, scaled_, response_;
 };

@@ -292,8 +292,10 @@ void Flow::take_over(Flow &old)
   drive = old.drive;
   walls_ = old.walls_;
   previous_walls_ = old.previous_walls_;
-  lower_direct_ = old.lower_direct_;
-  upper_direct_ = old.upper_direct_;
+  if (has_force_) {
+    lower_direct_ = old.lower_direct_;
+    upper_direct_ = old.upper_direct_;
+  }
   steps_ = old.steps_;
   solves_ = old.solves_;
   dt_ = old.dt_;

@@ -342,12 +342,10 @@ void FixRBCFluid::init()
 
 void FixRBCFluid::setup(int /*vflag*/)
 {
-  first_traffic = traffic();
-  first_solve = solves();
-  first_step = update->ntimestep;
   if (driven) return;
-  drive_now();
+  drive_at_setup();
   if (!has_inertia()) advance_alone();
+  count_from_here();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -436,6 +434,18 @@ fluid::Drive FixRBCFluid::evaluate_drive()
             "at step {}",
             id, update->ntimestep);
   return now;
+}
+
+/* ----------------------------------------------------------------------
+   a flow that has made steps goes on from the drive at the end of the last, though variables may jump between runs
+------------------------------------------------------------------------- */
+
+void FixRBCFluid::drive_at_setup()
+{
+  if (has_inertia() && drive_known)
+    drive_end();
+  else
+    drive_now();
 }
 
 void FixRBCFluid::drive_now()
@@ -678,6 +688,13 @@ void FixRBCFluid::restart(char *buffer)
 
 /* ---------------------------------------------------------------------- */
 
+void FixRBCFluid::count_from_here()
+{
+  first_traffic = traffic();
+  first_solve = solves();
+  first_step = update->ntimestep;
+}
+
 fluid::Traffic FixRBCFluid::traffic() const
 {
   const fluid::Traffic now = current_flow->traffic();
@@ -685,7 +702,7 @@ fluid::Traffic FixRBCFluid::traffic() const
 }
 
 /* ----------------------------------------------------------------------
-   what the flow took since the start of the run; collective
+   what the flow took since count_from_here; collective
 ------------------------------------------------------------------------- */
 
 std::string FixRBCFluid::costs(bigint steps) const

@@ -41,12 +41,14 @@ class FixRBCFluid : public Fix {
 
   fluid::Flow &flow() { return *current_flow; }
   bool has_inertia() const { return regime.inertia != fluid::Inertia::none; }
+  void drive_at_setup();
   void drive_now();
   void drive_middle();
   void drive_end();
   void flow_changed();
   bigint solves() const { return current_flow->solves() + earlier_solves; }
   double smallest_spacing() const;
+  void count_from_here();
   std::string costs(bigint steps) const;
 
  private:

@@ -188,7 +188,7 @@ void FixRBCIB::post_neighbor()
 
 void FixRBCIB::setup(int /*vflag*/)
 {
-  fluid_fix->drive_now();
+  fluid_fix->drive_at_setup();
   first_step = update->ntimestep;
   unconverged = 0;
   if (!fluid_fix->has_inertia())
@@ -198,6 +198,7 @@ void FixRBCIB::setup(int /*vflag*/)
   for (rbc::Stopwatch *watch : {&spreading, &solving, &interpolating, &exchanging}) watch->reset();
   for (FixRBCMembrane *membrane : membranes) membrane->stopwatch.reset();
   first_solve = fluid_fix->solves();
+  fluid_fix->count_from_here();
 }
 
 /* ----------------------------------------------------------------------
@@ -368,7 +369,7 @@ void FixRBCIB::couple_masses()
   for (auto *vector : {&applied, &target, &inertial}) vector->resize(numbers);
   resistance.resize(atom->nlocal);
 
-  const double span = levels == 0 ? 0.5 * dt : levels == 1 ? dt : 0.5 * (dt + last_dt);
+  const double span = levels == 0 ? 0.5 * dt : 0.5 * (dt + last_dt);
   const double r = span / (levels > 1 ? last_span : span);
   const double own = levels > 1 ? (1 + 2 * r) / (1 + r) : 1;    // coefficients, times span, of
   const double last = levels > 1 ? 1 + r : 1;                   // the three velocities
@@ -386,8 +387,8 @@ void FixRBCIB::couple_masses()
 
   const auto outcome =
       direct.advance(fluid_fix->flow(), dt,
-                        {kernel, markers(), rows(atom->x), applied.data(), resistance.data(),
-                         target.data(), inertial.data(), rows(atom->v), atom->nlocal});
+                     {kernel, markers(), rows(atom->x), applied.data(), resistance.data(),
+                      target.data(), inertial.data(), rows(atom->v), atom->nlocal});
   if (outcome.outside >= 0) stop_outside(outcome.outside);
   last_error = outcome.error;
   if (!(outcome.error <= direct.tolerance)) ++unconverged;
@@ -536,6 +537,8 @@ void FixRBCIB::post_run()
 
 double FixRBCIB::memory_usage()
 {
-  return static_cast<double>(members.capacity() * sizeof(int) +
-                             start_of_step.capacity() * sizeof(double));
+  std::size_t numbers = start_of_step.capacity() + direct.numbers();
+  for (const auto *vector : {&applied, &resistance, &target, &inertial})
+    numbers += vector->capacity();
+  return static_cast<double>(members.capacity() * sizeof(int) + numbers * sizeof(double));
 }
