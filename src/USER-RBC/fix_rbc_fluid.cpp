@@ -24,7 +24,7 @@ static constexpr double MAX_COURANT = 1.0;
 static constexpr double MAX_CELLS =
     0.25 * MAXSMALLINT;    // on a rank: a message counts three values of each in an int
 static constexpr int KERNEL_LAYERS =
-    3;    // reach of the widest kernel beyond a subdomain, staggering included
+    2;    // reach of the widest kernel beyond the cell of an atom, staggering included
 
 /* ---------------------------------------------------------------------- */
 
@@ -258,7 +258,8 @@ void FixRBCFluid::check_grid() const
 }
 
 /* ----------------------------------------------------------------------
-   without vertices none; a vertex leaves its subdomain by half the skin before atoms migrate, and within a step by half a cell more
+   without vertices none; a vertex leaves its subdomain by half the skin before atoms migrate and by half a cell more
+   within a step, and cells belong to the subdomain of their centres
 ------------------------------------------------------------------------- */
 
 int FixRBCFluid::layers_needed() const
@@ -266,7 +267,7 @@ int FixRBCFluid::layers_needed() const
   if (!driven) return 0;
   double layers = 0;
   for (int d = 0; d < 3; ++d)
-    layers = std::max(layers, 0.5 * neighbor->skin / (domain->prd[d] / cells[d]) + 0.5);
+    layers = std::max(layers, 0.5 * neighbor->skin / (domain->prd[d] / cells[d]) + 1.0);
   return static_cast<int>(std::ceil(layers)) + KERNEL_LAYERS;
 }
 

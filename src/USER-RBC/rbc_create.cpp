@@ -308,7 +308,7 @@ void RBCCreate::create_atoms(const std::vector<Vertices> &cells)
     atom->map_set();
   }
 
-  // vertices have no inertia, but LAMMPS wants a mass
+  // LAMMPS wants a mass; fix rbc/ib uses it with scheme direct only
 
   if (atom->mass && !atom->mass_setflag[type]) atom->set_mass(FLERR, type, 1.0);
 }
