@@ -199,6 +199,7 @@ int Flow::respond(KernelKind kernel, const Markers &markers, const double *posit
 void Flow::add_response(double factor)
 {
   add(force_, factor, response_force_);
+  if (regime_.inertia == Inertia::convective) add(rhs_, factor, response_force_);
   add(velocity_, factor, response_);
   for (int c = 0; c < 3; ++c) {
     lower_direct_[c] += factor * response_lower_[c];
