@@ -63,9 +63,15 @@ void Flow::gather_force()
 void Flow::solve()
 {
   if (!has_force()) velocity_.clear();
-  solve_for(velocity_, has_force() ? force_ : velocity_, drive);
+  solve_now(has_force() ? force_ : velocity_);
   walls_ = drive.walls;
   shared_ = false;
+}
+
+void Flow::solve_now(const VectorField &rhs)
+{
+  solved_drive_ = drive;
+  solve_for(velocity_, rhs, drive);
 }
 
 void Flow::solve_for(const VectorField &velocity, const VectorField &rhs, const Drive &by)
@@ -111,11 +117,11 @@ void Flow::start_step(double dt)
     if (extrapolation > 0)
       add_advection(grid_, brick(), previous_, regime_.density * extrapolation, rhs_);
     std::swap(velocity_, previous_);
-    solve_for(velocity_, rhs_, drive);
+    solve_now(rhs_);
   } else {
     std::swap(velocity_, previous_);
     assemble(previous_, velocity_);
-    solve_for(velocity_, velocity_, drive);
+    solve_now(velocity_);
   }
   previous_walls_ = walls_;
   previous_shared_ = shared_;
@@ -140,12 +146,12 @@ void Flow::finish_step()
         for (int i = brick().lo[0]; i < brick().hi[0]; ++i)
           r(i, j, k) += shift_ * (u(i, j, k) - start(i, j, k));
       });
-    solve_for(velocity_, rhs_, drive);
+    solve_now(rhs_);
     shared_ = false;
   } else {
     std::swap(velocity_, previous_);
     assemble(previous_, velocity_);
-    solve_for(velocity_, velocity_, drive);
+    solve_now(velocity_);
     shared_ = false;
   }
   ++steps_;
@@ -213,7 +219,7 @@ const ScalarField &Flow::pressure()
   const bool forces_only = steady && has_force_;
   if (!forces_only && !rhs_.bytes()) rhs_ = VectorField(brick());
   if (regime_.inertia == Inertia::unsteady) assemble(previous_, rhs_);
-  solver_.pressure(forces_only ? force_ : rhs_, drive, pressure_);
+  solver_.pressure(forces_only ? force_ : rhs_, solved_drive_, pressure_);
   return pressure_;
 }
 
@@ -290,6 +296,7 @@ void Flow::restore(const double *history)
 void Flow::take_over(Flow &old)
 {
   drive = old.drive;
+  solved_drive_ = old.solved_drive_;
   walls_ = old.walls_;
   previous_walls_ = old.previous_walls_;
   if (has_force_) {

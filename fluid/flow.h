@@ -100,6 +100,7 @@ class Flow {
   bool damped() const { return steps_ < 2; }
   void assemble(const VectorField &velocity, const VectorField &result) const;
   void set_shift(double shift);
+  void solve_now(const VectorField &rhs);
   void solve_for(const VectorField &velocity, const VectorField &rhs, const Drive &by);
   void fill_ghosts(const VectorField &velocity, const Walls &walls);
 
@@ -110,6 +111,7 @@ class Flow {
   bool has_force_;
   long solves_ = 0;
   VectorField force_, velocity_;
+  Drive solved_drive_;     ///< of the last solve
   Walls walls_;            ///< of the time of the velocity
   bool shared_ = false;    ///< the ghosts of the velocity are filled
   Vec3 lower_direct_{0, 0, 0}, upper_direct_{0, 0, 0};

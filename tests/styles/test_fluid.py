@@ -11,11 +11,11 @@ H, N, ETA, RHO = 12.0, 16, 1.5, 1.025
 Z = (np.arange(N) + 0.5) * H / N
 
 
-def fluid_scene(body="", lower="0 0 0", upper="0 0 0", grid=f"grid 6 4 {N}", **changes):
+def fluid_scene(body="", lower="0 0 0", upper="0 0 0", grid=f"grid 6 4 {N}", regime="inertia none", **changes):
     walls = f"wall zlo {lower} wall zhi {upper}" if lower else ""
     body = f"body {body}" if body else ""
     lines = dict(cells="mass 1 1", membrane=None, ib=None,
-                 fluid=f"fix flow all rbc/fluid {grid} viscosity {ETA} density {RHO} {walls} {body}",
+                 fluid=f"fix flow all rbc/fluid {grid} viscosity {ETA} density {RHO} {regime} {walls} {body}",
                  thermo="thermo_style custom step time f_flow " + " ".join(f"f_flow[{n}]" for n in range(1, 13)),
                  every="thermo 1")
     lines.update(changes)
