@@ -48,7 +48,6 @@ class Limits(unittest.TestCase):
         np.testing.assert_allclose(np.array(apart[:-1]) / apart[1:], 10, rtol=0.1)
         result = run(scene(**self.CELL, before="mass 1 1e-9", ib=SHEAR["ib"] + " scheme direct"))
         self.assertLess(abs(result.dump().positions() - elastic.positions()).max(), 1e-8 * DIAMETER)
-        self.assertEqual(result.thermo["f_flow[12]"][-1] if "f_flow[12]" in result.thermo else 42, 42)
 
     def test_a_light_marker_costs_one_solve_a_step(self):
         result, _ = markers(1e-9, "addforce 1e-6 0 0", ib="scheme direct")
@@ -57,9 +56,10 @@ class Limits(unittest.TestCase):
     def test_masses_of_all_sizes(self):
         # in Couette flow with a timestep beyond the reach of explicit coupling
         for mass in 10.0**np.arange(-12, 13, 4):
-            for ib in ("scheme direct", "scheme direct integrator euler"):
+            for ib in ("midpoint", "euler"):
                 with self.subTest(ib, mass=mass):
-                    result, velocity = markers(mass, regime="inertia unsteady wall zlo 0 0 0 wall zhi 0.003 0 0", ib=ib,
+                    result, velocity = markers(mass, regime="inertia unsteady wall zlo 0 0 0 wall zhi 0.003 0 0",
+                                               ib=f"scheme direct maxiter 1000 integrator {ib}",
                                                cells=SHEAR["cells"], timestep="timestep 200", steps=40, every=10)
                     self.assertLess(abs(velocity).max(), 0.003)
                     self.assertLess(result.thermo["f_flow[10]"].max(), 0.0031)
@@ -82,16 +82,16 @@ class Limits(unittest.TestCase):
         for regime in ("inertia unsteady", "inertia convective"):
             with self.subTest(regime):
                 result, velocity = markers(1e12, "setforce 0 0 0", regime + " body v_g v_half 0",
-                                           "scheme direct maxiter 1000", SHEAR["cells"], steps=120, every=1,
-                                           timestep="timestep 50", newton="variable g equal 1e-6*(1-exp(0-(time/500)^2))"
-                                           "\nvariable half equal v_g/2")
+                                           "scheme direct maxiter 1000", SHEAR["cells"], steps=120,
+                                           timestep="timestep 50", newton="variable half equal v_g/2\n"
+                                           "variable g equal 1e-6*(1-exp(0-(time/500)^2))")
                 force = columns(result, "f_ib[1]", "f_ib[2]", "f_ib[3]") / VOLUME
                 np.testing.assert_allclose((force[-1] + force[-2]) / 2, [-1e-6, -5e-7, 0], atol=1e-9)
                 slip = np.sqrt((velocity[-1]**2).sum(axis=1).mean()) / result.thermo["f_flow[10]"][-1]
                 moved = abs(result.dump().positions() - result.dump().positions(0)).max()
                 print(f"\nobstacle, {regime}: slip {slip:.2g} of the fastest fluid, moved {moved:.2g} um, "
                       f"force {force[-2:, 0]}")
-                self.assertLess(slip, 5e-3)    # errors of the velocity below tol stay
+                self.assertLess(slip, 1e-4)
                 self.assertLess(result.thermo["f_ib[4]"].max(), 1e-4)
 
 
@@ -154,13 +154,13 @@ class Momentum(unittest.TestCase):
 
     def test_conserved(self):
         # what a pulse of force brought in is there when all has come to rest relative to the box
-        pulse = 1e-4 * np.sin(np.pi * np.arange(1, 21) / 20)**2
+        pulse = 1e-4 * np.sin(np.pi * np.arange(1, 41) / 40)**4
         for mass in (0.1, 30.0):
             for regime in ("inertia unsteady", "inertia convective"):
                 with self.subTest(regime, mass=mass):
                     result, velocity = markers(
                         mass, "addforce v_F 0 v_F", regime, cells=self.SWARM["cells"], steps=100, every=100,
-                        newton="variable F equal 1e-4*(step<20)*sin(PI*step/20)*sin(PI*step/20)")
+                        newton="variable F equal 1e-4*(step<40)*sin(PI*step/40)^4")
                     momentum = (DENSITY * VOLUME * columns(result, "f_flow[7]", "f_flow[8]", "f_flow[9]")[-1] +
                                 mass * velocity[-1].sum(axis=0))
                     given = 30 * pulse.sum()
@@ -176,7 +176,8 @@ class WithACell(unittest.TestCase):
 
     def test_ranks(self):
         reference = run(scene(**self.CELL)).dump().positions()
-        for ranks, changes in ((2, {}), (4, {}), (4, dict(newton="newton off")), (2, dict(processors="processors 1 1 2"))):
+        ways = (2, {}), (2, dict(processors="processors 2 1 1")), (4, {}), (4, dict(newton="newton off"))
+        for ranks, changes in ways:
             with self.subTest(changes, ranks=ranks):
                 result = run(scene(**{**self.CELL, **changes}), ranks)
                 apart = abs(result.dump().positions() - reference).max() / DIAMETER
@@ -200,7 +201,7 @@ class WithACell(unittest.TestCase):
                 apart = abs(result.dump().positions() - reference).max() / DIAMETER
                 print(f"\ntol {tol}: error {result.thermo['f_ib[4]'][-1]:.2g}, {apart:.2g} diameters from tol 1e-10")
                 self.assertLess(result.thermo["f_ib[4]"][-1], tol)
-                self.assertLess(apart, 2 * tol)
+                self.assertLess(apart, 0.1 * tol)
                 self.assertNotIn("maxiter", result.printed)
 
     def test_maxiter(self):

@@ -248,8 +248,8 @@ class Costs(unittest.TestCase):
                                 "thermo": "thermo_style custom step f_flow[12]",
                                 "ib": "fix ib all rbc/ib flow integrator euler" if vertices else None})
         result = run(script, ranks)
-        words = re.search(r"Fluid: (\S+) messages and (\S+) bytes per step and MPI task, (\S+) bytes of memory per cell",
-                          result.printed).groups()
+        words = re.search(r"Fluid: (\S+) messages and (\S+) bytes per step and MPI task, (\S+) bytes of memory per "
+                          "cell", result.printed).groups()
         messages, sent, memory = map(float, words)
         solves = result.thermo["f_flow[12]"][-1]
         return messages * steps / solves, sent * steps / solves, memory
