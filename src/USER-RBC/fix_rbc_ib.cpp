@@ -103,7 +103,7 @@ void FixRBCIB::post_constructor()
   if (scheme != Scheme::DIRECT) return;
   store_id = std::string(id) + "_STORE_MOTION";
   store = dynamic_cast<FixStoreAtom *>(
-      modify->add_fix(fmt::format("{} {} STORE/ATOM {} 0 0 1", store_id, group->names[igroup], 6)));
+      modify->add_fix(fmt::format("{} {} STORE/ATOM {} 0 0 1", store_id, group->names[igroup], 9)));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -378,10 +378,11 @@ void FixRBCIB::couple_masses()
     const double mass = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
     resistance[i] = mass * own / span;
     for (int d = 0; d < 3; ++d) {
-      target[3 * i + d] = (last * atom->v[i][d] - older * history[i][d]) / own;
+      const double velocity = atom->v[i][d] + history[i][6 + d];
+      target[3 * i + d] = (last * velocity - older * history[i][d]) / own;
       applied[3 * i + d] = atom->f[i][d] * force->ftm2v;
       inertial[3 * i + d] = history[i][3 + d];
-      history[i][d] = atom->v[i][d];
+      history[i][d] = velocity;
     }
   }
 
@@ -397,6 +398,7 @@ void FixRBCIB::couple_masses()
   for (int i : members)
     for (int d = 0; d < 3; ++d) {
       history[i][3 + d] = inertial[3 * i + d];
+      history[i][6 + d] = target[3 * i + d] - inertial[3 * i + d] / resistance[i] - atom->v[i][d];
       exerted[d] += applied[3 * i + d] + inertial[3 * i + d];
     }
   levels = std::min(levels + 1, 2);

@@ -60,9 +60,10 @@ class FixRBCIB : public Fix {
 
   fluid::DirectForcing direct;
   std::string store_id;
-  class FixStoreAtom *store =
-      nullptr;       // velocity in the middle of the step before the last, inertial force
-  int levels = 0;    // of these velocities that are known
+  // velocity in the middle of the step before the last, inertial force, what the last velocity
+  // misses of what the forces would have made it: errors below the tolerance do not add up
+  class FixStoreAtom *store = nullptr;
+  int levels = 0;                       // of velocities that are known
   double last_dt = 0, last_span = 0;    // between the middles of steps
   std::vector<double> applied, resistance, target, inertial;
   bigint unconverged = 0;

@@ -11,6 +11,9 @@ from lammps_case import POTENTIALS, SHEAR, attempt, dump_line, in_parallel, read
 FLUID = SHEAR["fluid"]
 MEMBRANE = "fix mem all rbc/membrane rbc "
 CREATE = "rbc/create rbc "
+PERIODIC = {"boundary": "boundary p p p"}
+FREE = FLUID.split(" wall")[0]
+UNSTEADY = FLUID.replace("inertia none", "inertia unsteady")
 NO_CELLS = {"cells": None, "membrane": None, "ib": None}
 
 
@@ -53,9 +56,23 @@ FLUID_ERRORS = {
     "density without value": (dict(fluid=FLUID + " density"), ["fix rbc/fluid density", "missing"]),
     "density zero": (dict(fluid=FLUID.replace("1.025", "0")), ["rbc/fluid", "density", "0", "> 0"]),
     "inertia without value": (dict(fluid=FLUID + " inertia"), ["fix rbc/fluid inertia", "missing"]),
-    "inertia unknown": (dict(fluid=FLUID + " inertia all"), ["rbc/fluid", "inertia", "all", "none"]),
+    "inertia unknown": (dict(fluid=FLUID + " inertia all"),
+                        ["rbc/fluid", "inertia", "all", "none, unsteady, convective"]),
     "scheme without value": (dict(fluid=FLUID + " scheme"), ["fix rbc/fluid scheme", "missing"]),
-    "scheme unknown": (dict(fluid=FLUID + " scheme exact"), ["rbc/fluid", "scheme", "exact", "coupled"]),
+    "scheme unknown": (dict(fluid=FLUID + " scheme exact"), ["rbc/fluid", "scheme", "exact", "coupled, projection"]),
+    "projection without inertia": (dict(fluid=FLUID + " scheme projection"),
+                                   ["rbc/fluid", "scheme projection", "inertia unsteady or convective"]),
+    "mean between plates": (dict(fluid=FLUID + " mean 0.001 0 0"), ["rbc/fluid", "mean", "triply periodic"]),
+    "mean force between plates": (dict(fluid=FLUID + " inertia unsteady mean force"),
+                                  ["rbc/fluid", "mean", "triply periodic"]),
+    "mean force without inertia": (dict(PERIODIC, fluid=FREE + " mean force"),
+                                   ["rbc/fluid", "mean force", "inertia unsteady or convective"]),
+    "mean without value": (dict(PERIODIC, fluid=FREE + " mean"), ["fix rbc/fluid mean", "missing"]),
+    "mean too short": (dict(PERIODIC, fluid=FREE + " mean 0 0"), ["fix rbc/fluid mean", "missing"]),
+    "mean no number": (dict(PERIODIC, fluid=FREE + " mean 0 0 fast"), ["'fast'", "rbc/fluid"]),
+    "mean not a number": (dict(PERIODIC, fluid=FREE + " mean nan 0 0"), ["rbc/fluid", "mean", "nan"]),
+    "mean by a missing variable": (dict(PERIODIC, fluid=FREE + " mean 0 v_U 0"),
+                                   ["Variable U", "rbc/fluid", "does not exist"]),
     "wall side unknown": (dict(fluid=FLUID + " wall xlo 0 0 0"), ["rbc/fluid", "wall", "xlo", "zlo or zhi"]),
     "wall without side": (dict(fluid=FLUID + " wall"), ["fix rbc/fluid wall", "missing"]),
     "wall without velocity": (dict(fluid=FLUID + " wall zlo 0 0"), ["fix rbc/fluid wall", "missing"]),
@@ -80,6 +97,8 @@ FLUID_ERRORS = {
                                    ["flow", "vorticity"]),
 }
 
+DIRECT = SHEAR["ib"] + " scheme direct"
+
 IB_ERRORS = {
     "no fluid": (dict(fluid=None, thermo=None), ["rbc/ib", "no fix rbc/fluid", "flow"]),
     "fluid of another style": (dict(ib="fix ib all rbc/ib mem"), ["rbc/ib", "no fix rbc/fluid", "mem"]),
@@ -90,6 +109,21 @@ IB_ERRORS = {
     "unknown integrator": (dict(ib="fix ib all rbc/ib flow integrator verlet"),
                            ["rbc/ib", "integrator", "verlet", "midpoint"]),
     "unknown scheme": (dict(ib="fix ib all rbc/ib flow scheme plastic"), ["rbc/ib", "scheme", "plastic", "elastic"]),
+    "direct without inertia": (dict(ib=DIRECT), ["rbc/ib ib", "scheme direct", "inertia unsteady or convective"]),
+    "direct with projection": (dict(fluid=UNSTEADY + " scheme projection", ib=DIRECT),
+                               ["rbc/ib ib", "scheme direct", "rbc/fluid flow", "scheme coupled"]),
+    "direct without masses": (dict(fluid=UNSTEADY, ib=DIRECT, create_box="create_box 2 box angle/types 1"),
+                              ["mass"]),
+    "tol without direct": (dict(ib=SHEAR["ib"] + " tol 1e-3"), ["rbc/ib", "tol and maxiter", "scheme direct"]),
+    "maxiter without direct": (dict(ib=SHEAR["ib"] + " scheme elastic maxiter 9"),
+                               ["rbc/ib", "tol and maxiter", "scheme direct"]),
+    "tol without value": (dict(ib=DIRECT + " tol"), ["fix rbc/ib tol", "missing"]),
+    "tol zero": (dict(ib=DIRECT + " tol 0"), ["rbc/ib", "tol", "0", "between 0 and 1"]),
+    "tol one": (dict(ib=DIRECT + " tol 1"), ["rbc/ib", "tol", "1", "between 0 and 1"]),
+    "tol not a number": (dict(ib=DIRECT + " tol nan"), ["rbc/ib", "tol", "nan"]),
+    "tol no number": (dict(ib=DIRECT + " tol small"), ["'small'", "rbc/ib"]),
+    "maxiter zero": (dict(ib=DIRECT + " maxiter 0"), ["rbc/ib", "maxiter", "0", "> 0"]),
+    "maxiter no integer": (dict(ib=DIRECT + " maxiter 1.5"), ["1.5", "integer"]),
     "before the membrane": (dict(membrane=FLUID + "\n" + SHEAR["ib"], fluid=SHEAR["membrane"], ib=None),
                             ["rbc/ib", "ib", "after fix rbc/membrane mem"]),
     "minimize": (dict(run="minimize 0 1e-6 10 10", membrane=None, thermo=None), ["rbc/ib", "minimize"]),
@@ -293,6 +327,18 @@ class BadInput(unittest.TestCase):
         name = "ghost cutoff too short"
         self.check({name: IB_ERRORS[name]}, ranks=2)
 
+    def test_restart_of_another_flow(self):
+        later = {"units": None, "style": "read_restart r", "boundary": None, "box": None, "create_box": None,
+                 "cells": None}
+        table = {}
+        for name, change in (("grid", ("dx 1.0", "dx 0.75")), ("inertia", ("unsteady", "convective")),
+                             ("scheme", ("wall zlo", "scheme projection wall zlo"))):
+            again = scene(**{**later, "fluid": UNSTEADY.replace(*change), "run": "run 0"})
+            table[name] = (dict(fluid=UNSTEADY, run="run 0\nwrite_restart r\nclear\n" + again),
+                           ["rbc/fluid flow", "restart file", "grid of 12 12 12", "another inertia or scheme",
+                            "another fix ID"])
+        self.check(table, ranks=2)
+
     def test_membrane(self):
         self.check(MEMBRANE_ERRORS)
 
@@ -381,6 +427,16 @@ class DuringARun(unittest.TestCase):
     def test_speed_above_a_cell_per_step_later(self):
         self.check(["rbc/ib ib", "CFL above 1", "molecule ID 1"], earliest=15, latest=25,
                    fluid="variable U equal 0.0012*(1+0.25*step)\n" + SHEAR["fluid"].replace("0.0012", "v_U"))
+
+    def test_convective_flow_too_fast(self):
+        # the plate speeds up to a cell a step in step 9
+        for regime, ranks in (("convective", 2), ("convective scheme projection", 1)):
+            with self.subTest(regime, ranks=ranks):
+                _, _, where = self.check(
+                    ["rbc/fluid flow", "CFL above 1", "inertia convective"], ranks, 8, 10,
+                    fluid="variable U equal 0.0006*(1+step)\n" + SHEAR["fluid"].replace(
+                        "0.0012", "v_U").replace("none", regime))
+                self.assertEqual(where[2], 11.5)
 
     def test_a_force_that_is_not_a_number(self):
         for ranks in (1, 2):

@@ -1,6 +1,7 @@
 """Flows of fix rbc/fluid by itself against the exact solutions of the discrete equations, and what it offers to
 dumps, fix ave/grid, thermo and variables."""
 
+import re
 import unittest
 
 import numpy as np
@@ -232,6 +233,65 @@ class Output(unittest.TestCase):
         rows = np.loadtxt(result.path("out.txt"))
         np.testing.assert_allclose(rows[:, 2], ETA * 0.003 / H, rtol=1e-12)
         np.testing.assert_allclose(result.thermo["v_stress"], ETA * 0.003 / H, rtol=1e-12)
+
+
+class Costs(unittest.TestCase):
+    """What a flow does not need it neither stores nor sends."""
+
+    def cost(self, regime, ranks=1, vertices=False, walls=True):
+        """Messages and bytes of a solve and MPI task, bytes of memory per cell."""
+        steps = 20
+        script = fluid_scene(upper="v_U 0 0", lower="0 0 0" if walls else None, grid="grid 8 8 16",
+                             regime=regime + ("" if walls else " mean v_U 0 0"), run=f"run {steps}",
+                             boundary=f"boundary p p {'f' if walls else 'p'}",
+                             **{**TRACERS, "before": "variable U equal 1e-3*cos(step/10)",
+                                "thermo": "thermo_style custom step f_flow[12]",
+                                "ib": "fix ib all rbc/ib flow integrator euler" if vertices else None})
+        result = run(script, ranks)
+        words = re.search(r"Fluid: (\S+) messages and (\S+) bytes per step and MPI task, (\S+) bytes of memory per "
+                          "cell", result.printed).groups()
+        messages, sent, memory = map(float, words)
+        solves = result.thermo["f_flow[12]"][-1]
+        return messages * steps / solves, sent * steps / solves, memory
+
+    def test_one_rank_sends_nothing(self):
+        for regime in ("none", "unsteady", "convective"):
+            for vertices in (False, True):
+                self.assertEqual(self.cost("inertia " + regime, vertices=vertices)[:2], (0, 0), regime)
+
+    def test_memory(self):
+        for walls in (True, False):
+            with self.subTest(walls=walls):
+                none, unsteady, convective, projection = (
+                    self.cost(f"inertia {regime}", walls=walls)[2]
+                    for regime in ("none", "unsteady", "convective", "unsteady scheme projection"))
+                cells = {name: self.cost(f"inertia {name}", vertices=True, walls=walls)[2]
+                         for name in ("none", "unsteady", "convective")}
+                print(f"\nbytes per cell: none {none}, unsteady {unsteady}, convective {convective}, projection "
+                      f"{projection}; with vertices {cells}")
+                ghosts = 10 * 10 * 18 / (8 * 8 * 16)
+                np.testing.assert_allclose(unsteady - none, 24 * ghosts, rtol=0.01)
+                np.testing.assert_allclose(convective - unsteady, 24 * ghosts, rtol=0.01)
+                (self.assertGreater if walls else self.assertEqual)(projection, unsteady)    # keeps a pressure
+                for name, alone in (("none", none), ("unsteady", unsteady), ("convective", convective)):
+                    self.assertGreater(cells[name], alone + 24)
+
+    def test_messages_without_vertices(self):
+        for walls in (True, False):
+            for ranks in (2, 4):
+                with self.subTest(ranks=ranks, walls=walls):
+                    none, unsteady, convective, projection = (
+                        self.cost(f"inertia {regime}", ranks, walls=walls)
+                        for regime in ("none", "unsteady", "convective", "unsteady scheme projection"))
+                    vertices = self.cost("inertia none", ranks, True, walls)
+                    print(f"\n{ranks} ranks: messages and bytes a solve: none {none[:2]}, unsteady {unsteady[:2]}, "
+                          f"convective {convective[:2]}; with vertices {vertices[:2]}")
+                    self.assertGreater(none[0], 0)
+                    for other in (unsteady, projection):
+                        np.testing.assert_allclose(other[:2], none[:2], rtol=1e-3)
+                    self.assertGreater(convective[0], unsteady[0])
+                    self.assertGreater(convective[1], unsteady[1])
+                    self.assertGreater(vertices[1], convective[1])
 
 
 class WithCells(unittest.TestCase):

@@ -16,7 +16,7 @@ SPEED = 0.003
 
 
 def marched(steps, dt, upper=lambda t: SPEED, body=lambda t: 0.0, cells=N):
-    """Profiles of the steps of Crank-Nicolson, the first two of two halves by backward Euler. dt: one, or one a step."""
+    """Profiles of the steps of Crank-Nicolson, the first two of two halves by backward Euler; dt may be a list."""
     h = H / cells
     laplace = (np.diag(np.full(cells, -2.0)) + np.diag(np.ones(cells - 1), 1) + np.diag(np.ones(cells - 1), -1)) / h**2
     laplace[0, 0] = laplace[-1, -1] = -3 / h**2
@@ -59,18 +59,18 @@ class Parallel(unittest.TestCase):
     """Flows along the plates; every regime has the same."""
 
     def check(self, expected, dt=1.0, ranks=1, **changes):
-        for regime in REGIMES:
+        results = in_parallel(lambda regime: run(fluid_scene(**{
+            "regime": regime, "grid": f"grid 4 4 {N}", "timestep": f"timestep {dt}", "dump": grid_dump(1, *VELOCITY),
+            "run": f"run {STEPS}", **changes}), ranks), [(regime,) for regime in REGIMES])
+        for regime, result in zip(REGIMES, results):
             with self.subTest(regime, ranks=ranks):
-                result = run(fluid_scene(**{"regime": regime, "grid": f"grid 4 4 {N}", "timestep": f"timestep {dt}",
-                                            "dump": grid_dump(1, *VELOCITY), "run": f"run {STEPS}", **changes}), ranks)
                 np.testing.assert_allclose(profiles(result), expected, atol=1e-12 * abs(expected).max())
                 for other in VELOCITY[1:]:
                     np.testing.assert_allclose(profiles(result, other), 0, atol=1e-12 * abs(expected).max())
 
     def test_couette_start_up(self):
-        for ranks in (1, 4):
-            for dt in (0.5, 100.0):
-                self.check(marched(STEPS, dt), dt, ranks, upper=f"{SPEED} 0 0")
+        for ranks, dt in ((1, 0.5), (1, 100.0), (4, 0.5)):
+            self.check(marched(STEPS, dt), dt, ranks, upper=f"{SPEED} 0 0")
 
     def test_oscillating_plate(self):
         self.check(marched(STEPS, 0.7, lambda t: SPEED * np.cos(0.3 * t)), 0.7, upper="v_U 0 0",
@@ -107,20 +107,21 @@ class Parallel(unittest.TestCase):
 
         def periodic(z, t):
             return oscillation(z, t, omega)
-        errors, orders = self.errors(periodic, 110.0, upper="v_U 0 0", last="",
+        errors, orders = self.errors(periodic, 110.0, upper="v_U 0 0",
                                      before=f"variable U equal {SPEED}*cos({omega!r}*time)")
         self.assertLess(errors[-1], 2e-3)
         self.assertGreater(orders.min(), 1.9)
 
     def test_any_timestep(self):
         for regime in ("inertia unsteady", "inertia unsteady scheme projection"):
-            for dt in 10.0**np.arange(-3, 6):
+            sizes = 10.0**np.arange(-3, 6)
+            results = in_parallel(lambda dt: run(fluid_scene(regime=regime, upper=f"{SPEED} 0 0", run="run 100",
+                                                             timestep=f"timestep {dt!r}")), [(dt,) for dt in sizes])
+            for dt, result in zip(sizes, results):
                 with self.subTest(regime, dt=dt):
-                    thermo = run(fluid_scene(regime=regime, upper=f"{SPEED} 0 0", timestep=f"timestep {dt!r}",
-                                             run="run 100")).thermo
-                    self.assertLess(thermo["f_flow[10]"].max(), SPEED)
+                    self.assertLess(result.thermo["f_flow[10]"].max(), SPEED)
                     if dt >= 100:
-                        np.testing.assert_allclose(thermo["f_flow[1]"][-1], ETA * SPEED / H, rtol=1e-6)
+                        np.testing.assert_allclose(result.thermo["f_flow[1]"][-1], ETA * SPEED / H, rtol=1e-6)
 
 
 class Periodic(unittest.TestCase):
@@ -134,12 +135,10 @@ class Periodic(unittest.TestCase):
     def test_a_body_force_accelerates_the_fluid(self):
         force = np.array([1e-3, -2e-3, 3e-3])
         for regime in REGIMES:
-            for ranks in (1, 2):
-                for mean in ("", " mean force"):
-                    with self.subTest(regime + mean, ranks=ranks):
-                        t, u = self.mean(ranks, regime=regime + mean, body="1e-3 -2e-3 3e-3",
-                                         timestep="timestep 0.7")
-                        np.testing.assert_allclose(u, np.outer(t, force / RHO), rtol=1e-12)
+            for ranks, mean in ((1, ""), (2, " mean force")):
+                with self.subTest(regime + mean, ranks=ranks):
+                    t, u = self.mean(ranks, regime=regime + mean, body="1e-3 -2e-3 3e-3")
+                    np.testing.assert_allclose(u, np.outer(t, force / RHO), rtol=1e-12)
 
     def test_a_body_force_that_varies(self):
         # trapezia; in the first two steps a half each by the force in the middle and at the end
@@ -205,11 +204,11 @@ class Output(unittest.TestCase):
 
 
 # A cell; the plate starts smoothly.
-CELL = dict(before=f"variable U equal 0.0012*(1-exp(0-(time/3000)^2))", every="thermo 10", dump=dump_line(10),
+CELL = dict(before="variable U equal 0.0012*(1-exp(0-(time/3000)^2))", every="thermo 10", dump=dump_line(10),
             thermo="thermo_style custom step f_mem f_flow[1] f_flow[10] f_flow[11] f_flow[12]", run="run 40",
             neighbor=SHEAR["neighbor"] + "\nneigh_modify every 1 delay 0 check no")
 FLUID = SHEAR["fluid"].replace("0.0012", "v_U")
-WITH_CELLS = {name: dict(CELL, fluid=FLUID.replace("inertia none", name)) for name in REGIMES}
+WITH_CELLS = {name: dict(CELL, fluid=FLUID.replace("inertia none", name), ib=SHEAR["ib"]) for name in REGIMES}
 WITH_CELLS["direct"] = dict(CELL, fluid=FLUID.replace("inertia none", "inertia unsteady"), cells=SHEAR["cells"] +
                             "\nmass 1 2", ib=SHEAR["ib"] + " scheme direct tol 1e-10")
 NONE = dict(CELL, fluid=FLUID)
@@ -263,11 +262,11 @@ class Pieces(unittest.TestCase):
     """Runs that go on where the last one ended."""
 
     def compare(self, lines, ranks=1, names=WITH_CELLS, exact=True, **changes):
-        for name in names:
+        cases = [{**WITH_CELLS[name], **changes} for name in names]
+        results = in_parallel(lambda case: (run(scene(**case), ranks), run(scene(**{**case, "run": lines}), ranks)),
+                              [(case,) for case in cases])
+        for name, (whole, pieces) in zip(names, results):
             with self.subTest(name, lines=lines, ranks=ranks):
-                case = {**WITH_CELLS[name], **changes}
-                whole = run(scene(**case), ranks)
-                pieces = run(scene(**{**case, "run": lines}), ranks)
                 a, b = whole.dump(), pieces.dump()
                 compare = np.testing.assert_array_equal if exact else lambda x, y: np.testing.assert_allclose(
                     x, y, atol=1e-12 * DIAMETER, rtol=0)
@@ -279,16 +278,15 @@ class Pieces(unittest.TestCase):
                 self.assertEqual(pieces.thermo["f_flow[12]"][-1], whole.thermo["f_flow[12]"][-1])
 
     def test_in_two(self):
-        for ranks in (1, 2):
-            self.compare("run 20\nrun 20", ranks)
-            self.compare("run 1\nrun 39 pre no", ranks)
+        self.compare("run 20\nrun 20", 2)
+        self.compare("run 1\nrun 39 pre no")
 
     def test_run_0(self):
         self.compare("run 0\nrun 20\nrun 0\nrun 20")
 
     def test_euler(self):
-        self.compare("run 20\nrun 20", names=("inertia convective", "direct"), ib="fix ib all rbc/ib flow integrator "
-                     "euler")
+        for name in ("inertia convective", "direct"):
+            self.compare("run 20\nrun 20", names=[name], ib=WITH_CELLS[name]["ib"].replace("midpoint", "euler"))
 
     def test_reneighboring_as_usual(self):
         self.compare("run 20\nrun 20", exact=False, neighbor=SHEAR["neighbor"])
