@@ -81,8 +81,8 @@ DirectForcing::Outcome DirectForcing::advance(Flow &flow, double dt, const Probl
   const double speed = fastest(flow, markers, problem.target);
   auto sums = norms();
   const auto error = [&] {
-    const double of_force = sums[1] > 0 ? std::sqrt(sums[1] / sums[3]) : 0;
-    const double of_velocity = sums[2] > 0 ? std::sqrt(sums[2] / sums[4]) / speed : 0;
+    const double of_force = sums[1] == 0 ? 0 : std::sqrt(sums[1] / sums[3]);
+    const double of_velocity = sums[2] == 0 ? 0 : std::sqrt(sums[2] / sums[4]) / speed;
     return massive ? std::min(of_force, of_velocity) : of_velocity;
   };
 
@@ -90,8 +90,7 @@ DirectForcing::Outcome DirectForcing::advance(Flow &flow, double dt, const Probl
     for_each_number(markers, [&](int row, std::size_t i) {
       scaled_[i] = std::sqrt(weight(row)) * direction_[i];
     });
-    outcome.outside =
-        flow.respond(problem.kernel, markers, problem.position, scaled_.data(), response_.data());
+    flow.respond(problem.kernel, markers, problem.position, scaled_.data(), response_.data());
     ++outcome.solves;
     std::array<double, 1> curvature{};
     for_each_number(markers, [&](int, std::size_t i) {

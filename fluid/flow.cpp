@@ -134,11 +134,14 @@ void Flow::finish_step()
 {
   walls_ = drive.walls;
   if (!damped()) {
-    const std::size_t n = 3 * velocity_.box().size();
-    double *const u = velocity_[0].data;
-    const double *const start = previous_[0].data;
-    for (std::size_t i = 0; i < n; ++i) u[i] = 2 * u[i] - start[i];
     shared_ = shared_ && previous_shared_;
+    const Box &box = shared_ ? velocity_.box() : brick();
+    for (int c = 0; c < 3; ++c)
+      for_each_row(box, [&, u = velocity_[c], start = previous_[c]](int j, int k) {
+        double *const row = &u(box.lo[0], j, k);
+        const double *const start_row = &start(box.lo[0], j, k);
+        for (int i = 0; i < box.extent(0); ++i) row[i] = 2 * row[i] - start_row[i];
+      });
     if (grid_.walls && shared_) reflect_velocity(grid_, walls_, velocity_);
   } else if (regime_.inertia == Inertia::convective) {
     for (int c = 0; c < 3; ++c)
@@ -181,7 +184,7 @@ void Flow::interpolate(KernelKind kernel, const Markers &markers, const double *
   fluid::interpolate(kernel, grid_, markers, position, velocity_, velocity);
 }
 
-int Flow::respond(KernelKind kernel, const Markers &markers, const double *position,
+void Flow::respond(KernelKind kernel, const Markers &markers, const double *position,
                   const double *force, double *velocity)
 {
   if (!response_.bytes()) {
@@ -190,14 +193,14 @@ int Flow::respond(KernelKind kernel, const Markers &markers, const double *posit
   }
   response_force_.clear();
   const int outside = fluid::spread(kernel, grid_, markers, position, force, 1.0, response_force_);
-  if (outside >= 0) return outside;
+  assert(outside < 0);
+  (void) outside;
   response_lower_ = response_upper_ = {0, 0, 0};
   if (grid_.walls) fold_force(grid_, response_force_, response_lower_, response_upper_);
   halo_.add_back(response_force_.views());
   solve_for(response_, response_force_, {});
   fill_ghosts(response_, {});
   fluid::interpolate(kernel, grid_, markers, position, response_, velocity);
-  return -1;
 }
 
 void Flow::add_response(double factor)
@@ -216,9 +219,10 @@ const ScalarField &Flow::pressure()
   if (!pressure_.bytes()) pressure_ = ScalarField(halo_.box());
   const bool steady = regime_.inertia == Inertia::none;
   if (!steady && !stepped_) return pressure_;
+  const bool kept = solver_.kept_modes() != nullptr;    // by a projection: nothing is left to solve
   const bool forces_only = steady && has_force_;
-  if (!forces_only && !rhs_.bytes()) rhs_ = VectorField(brick());
-  if (regime_.inertia == Inertia::unsteady) assemble(previous_, rhs_);
+  if (!kept && !forces_only && !rhs_.bytes()) rhs_ = VectorField(brick());
+  if (!kept && regime_.inertia == Inertia::unsteady) assemble(previous_, rhs_);
   solver_.pressure(forces_only ? force_ : rhs_, solved_drive_, pressure_);
   return pressure_;
 }

@@ -54,9 +54,10 @@ class Flow {
                    double *velocity) const;
 
   /// Velocities at the markers that further forces on them would add now (solve, start_step): the mobility of the
-  /// markers, by the coupled scheme. `add_response` adds a multiple of these forces and of their flow. Returns as spread.
-  int respond(KernelKind kernel, const Markers &markers, const double *position,
-              const double *force, double *velocity);
+  /// markers, by the coupled scheme. `add_response` adds a multiple of these forces and of their flow. The markers
+  /// must be those of a spread that returned -1, at the same positions.
+  void respond(KernelKind kernel, const Markers &markers, const double *position,
+               const double *force, double *velocity);
   void add_response(double factor);
 
   const Grid &grid() const { return grid_; }

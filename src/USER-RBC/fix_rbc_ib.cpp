@@ -82,6 +82,7 @@ FixRBCIB::FixRBCIB(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
 
   if (scheme == Scheme::DIRECT) {
     restart_global = 1;
+    create_attribute = 1;
     vector_flag = 1;
     size_vector = 4;
     global_freq = 1;
@@ -103,7 +104,16 @@ void FixRBCIB::post_constructor()
   if (scheme != Scheme::DIRECT) return;
   store_id = std::string(id) + "_STORE_MOTION";
   store = dynamic_cast<FixStoreAtom *>(
-      modify->add_fix(fmt::format("{} {} STORE/ATOM {} 0 0 1", store_id, group->names[igroup], 9)));
+      modify->add_fix(fmt::format("{} {} STORE/ATOM {} 0 0 1", store_id, group->names[igroup], NSTORED)));
+}
+
+/* ----------------------------------------------------------------------
+   a new atom has no past
+------------------------------------------------------------------------- */
+
+void FixRBCIB::set_arrays(int i)
+{
+  std::fill_n(store->astore[i], NSTORED, 0.0);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -195,6 +205,8 @@ void FixRBCIB::setup(int /*vflag*/)
     update_velocities(Stage::START);
   else if (scheme == Scheme::ELASTIC && fluid_fix->flow().steps() == 0)
     interpolate(Stage::START);
+  else
+    check_velocities();
   for (rbc::Stopwatch *watch : {&spreading, &solving, &interpolating, &exchanging}) watch->reset();
   for (FixRBCMembrane *membrane : membranes) membrane->stopwatch.reset();
   first_solve = fluid_fix->solves();
@@ -369,21 +381,25 @@ void FixRBCIB::couple_masses()
   for (auto *vector : {&applied, &target, &inertial}) vector->resize(numbers);
   resistance.resize(atom->nlocal);
 
-  const double span = levels == 0 ? 0.5 * dt : 0.5 * (dt + last_dt);
-  const double r = span / (levels > 1 ? last_span : span);
-  const double own = levels > 1 ? (1 + 2 * r) / (1 + r) : 1;    // coefficients, times span, of
-  const double last = levels > 1 ? 1 + r : 1;                   // the three velocities
-  const double older = levels > 1 ? r * r / (1 + r) : 0;
+  const double between = 0.5 * (dt + last_dt);    // the middles of this step and the last
   for (int i : members) {
     const double mass = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
+    if (!(mass > 0)) stop(i, fmt::format("has mass {}; scheme direct needs a mass > 0", mass));
+    const int steps = static_cast<int>(history[i][STEPS]);
+    const double span = steps == 0 ? 0.5 * dt : between;
+    const double r = steps > 1 ? span / last_between : 1;
+    const double own = steps > 1 ? (1 + 2 * r) / (1 + r) : 1;    // coefficients, times span, of
+    const double last = steps > 1 ? 1 + r : 1;                   // the three velocities
+    const double older = steps > 1 ? r * r / (1 + r) : 0;
     resistance[i] = mass * own / span;
     for (int d = 0; d < 3; ++d) {
-      const double velocity = atom->v[i][d] + history[i][6 + d];
-      target[3 * i + d] = (last * velocity - older * history[i][d]) / own;
+      const double velocity = atom->v[i][d] + history[i][MISSING + d];
+      target[3 * i + d] = (last * velocity - older * history[i][OLDER + d]) / own;
       applied[3 * i + d] = atom->f[i][d] * force->ftm2v;
-      inertial[3 * i + d] = history[i][3 + d];
-      history[i][d] = velocity;
+      inertial[3 * i + d] = history[i][INERTIAL + d];
+      history[i][OLDER + d] = velocity;
     }
+    history[i][STEPS] = std::min(steps + 1, 2);
   }
 
   const auto outcome =
@@ -397,13 +413,13 @@ void FixRBCIB::couple_masses()
   for (double &sum : exerted) sum = 0;
   for (int i : members)
     for (int d = 0; d < 3; ++d) {
-      history[i][3 + d] = inertial[3 * i + d];
-      history[i][6 + d] = target[3 * i + d] - inertial[3 * i + d] / resistance[i] - atom->v[i][d];
+      history[i][INERTIAL + d] = inertial[3 * i + d];
+      history[i][MISSING + d] =
+          target[3 * i + d] - inertial[3 * i + d] / resistance[i] - atom->v[i][d];
       exerted[d] += applied[3 * i + d] + inertial[3 * i + d];
     }
-  levels = std::min(levels + 1, 2);
   last_dt = dt;
-  last_span = span;
+  last_between = between;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -440,18 +456,17 @@ double FixRBCIB::compute_vector(int n)
 void FixRBCIB::write_restart(FILE *fp)
 {
   if (comm->me != 0) return;
-  const double state[3] = {double(levels), last_dt, last_span};
+  const double state[2] = {last_dt, last_between};
   const int size = sizeof(state);
   fwrite(&size, sizeof(int), 1, fp);
-  fwrite(state, sizeof(double), 3, fp);
+  fwrite(state, sizeof(double), 2, fp);
 }
 
 void FixRBCIB::restart(char *buffer)
 {
   const auto state = reinterpret_cast<const double *>(buffer);
-  levels = static_cast<int>(state[0]);
-  last_dt = state[1];
-  last_span = state[2];
+  last_dt = state[0];
+  last_between = state[1];
 }
 
 /* ----------------------------------------------------------------------

@@ -34,6 +34,7 @@ class FixRBCIB : public Fix {
   double memory_usage() override;
   void write_restart(FILE *) override;
   void restart(char *) override;
+  void set_arrays(int) override;
 
   const std::string &fluid() const { return fluid_id; }    // ID of the fix rbc/fluid it drives
 
@@ -60,11 +61,11 @@ class FixRBCIB : public Fix {
 
   fluid::DirectForcing direct;
   std::string store_id;
-  // velocity in the middle of the step before the last, inertial force, what the last velocity
-  // misses of what the forces would have made it: errors below the tolerance do not add up
   class FixStoreAtom *store = nullptr;
-  int levels = 0;                       // of velocities that are known
-  double last_dt = 0, last_span = 0;    // between the middles of steps
+  // Per atom: velocity in the middle of the step before the last, inertial force, what the last velocity misses of
+  // what the forces would have made it (so that errors below the tolerance do not add up), steps known (0 to 2).
+  enum Stored { OLDER = 0, INERTIAL = 3, MISSING = 6, STEPS = 9, NSTORED = 10 };
+  double last_dt = 0, last_between = 0;    // time between the middles of the last two steps
   std::vector<double> applied, resistance, target, inertial;
   bigint unconverged = 0;
   double last_error = 0;
