@@ -185,7 +185,7 @@ void Flow::interpolate(KernelKind kernel, const Markers &markers, const double *
 }
 
 void Flow::respond(KernelKind kernel, const Markers &markers, const double *position,
-                  const double *force, double *velocity)
+                   const double *force, double *velocity)
 {
   if (!response_.bytes()) {
     response_force_ = VectorField(halo_.box());
@@ -194,7 +194,7 @@ void Flow::respond(KernelKind kernel, const Markers &markers, const double *posi
   response_force_.clear();
   const int outside = fluid::spread(kernel, grid_, markers, position, force, 1.0, response_force_);
   assert(outside < 0);
-  (void) outside;
+  (void)outside;
   response_lower_ = response_upper_ = {0, 0, 0};
   if (grid_.walls) fold_force(grid_, response_force_, response_lower_, response_upper_);
   halo_.add_back(response_force_.views());

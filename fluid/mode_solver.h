@@ -20,7 +20,7 @@ struct Drive {
 };
 
 /// Solves the discrete problem (shift - viscosity lap) u + grad p = f, div u = 0 on the staggered grid,
-/// mode by mode in x and y, exactly to round-off: there is no splitting between velocity and pressure.
+/// mode by mode in x and y.
 class ModeSolver {
  public:
   virtual ~ModeSolver() = default;
@@ -32,7 +32,7 @@ class ModeSolver {
 
   virtual void set_shift(double shift) = 0;
 
-  /// The pressure kept from solve to solve, if the scheme does; its memory.
+  /// The pressure that goes from solve to solve; null if the scheme keeps none.
   virtual const Components<Complex, 1> *kept_pressure() const { return nullptr; }
 };
 
@@ -41,7 +41,7 @@ class ModeSolver {
 std::unique_ptr<ModeSolver> make_periodic_modes(const Grid &grid, const Box &modes,
                                                 double viscosity, double shift, bool hold_mean);
 
-/// Plates at both ends of z (no slip).
+/// Plates at both ends of z (no slip). Exact to round-off: velocity and pressure are not split.
 std::unique_ptr<ModeSolver> make_walled_modes(const Grid &grid, const Box &modes, double viscosity,
                                               double shift);
 

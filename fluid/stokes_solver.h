@@ -6,7 +6,7 @@
 namespace fluid {
 
 /// Velocity (and pressure) of (shift - viscosity lap) u + grad p = f, div u = 0 for a force density on the
-/// faces of a distributed staggered grid, exact for the discrete equations.
+/// faces of a distributed staggered grid: exact for the discrete equations, but by projection between plates.
 class StokesSolver {
  public:
   /// `hold_mean` as for make_periodic_modes.

@@ -10,6 +10,7 @@
 #include "memory.h"
 #include "modify.h"
 #include "neighbor.h"
+#include "output.h"
 #include "update.h"
 
 #include <algorithm>
@@ -327,6 +328,8 @@ void FixRBCFluid::init()
   for (const auto *vector : {&lower, &upper, &body, &mean})
     for (const auto &component : *vector) component.check(lmp, "fix rbc/fluid");
 
+  if (has_inertia() && output->restart_flag) check_restart_size();
+
   std::string driver;
   for (Fix *fix : modify->get_fix_by_style("^rbc/ib$")) {
     if (dynamic_cast<FixRBCIB *>(fix)->fluid() != id) continue;
@@ -443,6 +446,7 @@ fluid::Drive FixRBCFluid::evaluate_drive()
 
 void FixRBCFluid::drive_at_setup()
 {
+  ++version;
   if (has_inertia() && drive_known)
     drive_end();
   else
@@ -650,40 +654,56 @@ double FixRBCFluid::memory_usage()
    the fluid's history: numbers that tell what it belongs to, then that of the library
 ------------------------------------------------------------------------- */
 
-static constexpr int RESTART_HEAD = 6;
+std::vector<double> FixRBCFluid::restart_head() const
+{
+  return {double(cells[0]),      double(cells[1]),
+          double(cells[2]),      domain->prd[0],
+          domain->prd[1],        domain->prd[2],
+          double(walls),         double(regime.inertia),
+          double(regime.scheme), double(current_flow->history_length())};
+}
+
+double FixRBCFluid::restart_bytes() const
+{
+  return sizeof(double) * (restart_head().size() + 1.0 + current_flow->history_length());
+}
+
+void FixRBCFluid::check_restart_size() const
+{
+  if (restart_bytes() > MAXSMALLINT)
+    error->all(
+        FLERR,
+        "Fix rbc/fluid {}: the history of {} x {} x {} cells, {:.3g} bytes, does not fit into "
+        "a restart file, which holds 2 GB of it",
+        id, cells[0], cells[1], cells[2], restart_bytes());
+}
 
 void FixRBCFluid::write_restart(FILE *fp)
 {
-  const double bytes = sizeof(double) * (RESTART_HEAD + double(current_flow->history_length()));
-  if (bytes > MAXSMALLINT)
-    error->all(FLERR,
-               "Fix rbc/fluid {}: {} x {} x {} cells with their history do not fit into a "
-               "restart file",
-               id, cells[0], cells[1], cells[2]);
+  check_restart_size();
   const std::vector<double> history = current_flow->history();
   if (comm->me != 0) return;
-  const double head[RESTART_HEAD] = {double(cells[0]),      double(cells[1]),
-                                     double(cells[2]),      double(regime.inertia),
-                                     double(regime.scheme), double(solves())};
-  const int size = static_cast<int>(bytes);
+  std::vector<double> head = restart_head();
+  head.push_back(double(solves()));
+  const int size = static_cast<int>(restart_bytes());
   fwrite(&size, sizeof(int), 1, fp);
-  fwrite(head, sizeof(double), RESTART_HEAD, fp);
+  fwrite(head.data(), sizeof(double), head.size(), fp);
   fwrite(history.data(), sizeof(double), history.size(), fp);
 }
 
 void FixRBCFluid::restart(char *buffer)
 {
   const auto head = reinterpret_cast<const double *>(buffer);
-  const double expected[5] = {double(cells[0]), double(cells[1]), double(cells[2]),
-                              double(regime.inertia), double(regime.scheme)};
-  if (!std::equal(expected, expected + 5, head))
-    error->all(FLERR,
-               "Fix rbc/fluid {}: the restart file holds this flow on a grid of {} {} {} cells, or "
-               "with another inertia or scheme; define the fix as it was, or use another fix ID to "
-               "start from rest",
-               id, head[0], head[1], head[2]);
-  earlier_solves = static_cast<bigint>(head[5]);
-  current_flow->restore(head + RESTART_HEAD);
+  const std::vector<double> expected = restart_head();
+  if (!std::equal(expected.begin(), expected.end(), head))
+    error->all(
+        FLERR,
+        "Fix rbc/fluid {}: the restart file holds this flow on a grid of {} {} {} cells, or "
+        "in another box, or with another inertia or scheme; define the fix as it was, or use "
+        "another fix ID to start from rest",
+        id, head[0], head[1], head[2]);
+  earlier_solves = static_cast<bigint>(head[expected.size()]);
+  current_flow->restore(head + expected.size() + 1);
   flow_changed();
 }
 

@@ -68,10 +68,10 @@ class FixRBCFluid : public Fix {
   bool varying = false;    // a variable drives the flow
   bool drive_known = false;
   fluid::Drive end_of_step;
-  bigint earlier_solves = 0;    // before a restart
-  bigint version = 0;           // of the velocity
-  fluid::Traffic earlier_traffic,
-      first_traffic;    // on earlier decompositions, at the start of the run
+  bigint earlier_solves = 0;         // before a restart
+  bigint version = 0;                // of the velocity
+  fluid::Traffic earlier_traffic;    // on earlier decompositions
+  fluid::Traffic first_traffic;      // at the start of the run
   bigint first_step = 0, first_solve = 0;
 
   fluid::FlowMeasures measures;
@@ -88,6 +88,9 @@ class FixRBCFluid : public Fix {
   void build_flow();
   void advance_alone();
   void check_courant();
+  std::vector<double> restart_head() const;
+  double restart_bytes() const;
+  void check_restart_size() const;
   fluid::Drive evaluate_drive();
   fluid::Traffic traffic() const;
   void free_data();

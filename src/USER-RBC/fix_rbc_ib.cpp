@@ -103,8 +103,8 @@ void FixRBCIB::post_constructor()
 {
   if (scheme != Scheme::DIRECT) return;
   store_id = std::string(id) + "_STORE_MOTION";
-  store = dynamic_cast<FixStoreAtom *>(
-      modify->add_fix(fmt::format("{} {} STORE/ATOM {} 0 0 1", store_id, group->names[igroup], NSTORED)));
+  store = dynamic_cast<FixStoreAtom *>(modify->add_fix(
+      fmt::format("{} {} STORE/ATOM {} 0 0 1", store_id, group->names[igroup], NSTORED)));
 }
 
 /* ----------------------------------------------------------------------

@@ -64,7 +64,7 @@ class FixRBCIB : public Fix {
   class FixStoreAtom *store = nullptr;
   // Per atom: velocity in the middle of the step before the last, inertial force, what the last velocity misses of
   // what the forces would have made it (so that errors below the tolerance do not add up), steps known (0 to 2).
-  enum Stored { OLDER = 0, INERTIAL = 3, MISSING = 6, STEPS = 9, NSTORED = 10 };
+  static constexpr int OLDER = 0, INERTIAL = 3, MISSING = 6, STEPS = 9, NSTORED = 10;
   double last_dt = 0, last_between = 0;    // time between the middles of the last two steps
   std::vector<double> applied, resistance, target, inertial;
   bigint unconverged = 0;
