@@ -5,7 +5,7 @@ import unittest
 
 import numpy as np
 
-from lammps_case import SHEAR, dump_line, run, scene
+from lammps_case import SHEAR, attempt, dump_line, run, scene
 
 DIAMETER = 7.82
 DENSITY, VOLUME = 1.025, 12.0**3
@@ -208,6 +208,18 @@ class WithACell(unittest.TestCase):
         result = run(scene(**{**self.CELL, "ib": SHEAR["ib"] + " scheme direct tol 1e-10 maxiter 1"}))
         self.assertRegex(result.printed, r"WARNING: Fix rbc/ib ib reached its maxiter of 1 in \d+ steps")
         self.assertGreater(result.thermo["f_ib[4]"][-1], 1e-10)
+
+    def test_cells_that_come_after_the_fix(self):
+        scene_of = {**self.CELL, "ib": SHEAR["ib"] + " scheme direct", "dump": ""}
+        dump = dump_line(40)
+        early = run(scene(**{**scene_of, "last": dump})).dump()
+        late = run(scene(**{**scene_of, "cells": "mass 1 1", "last": SHEAR["cells"] + "\n" + dump})).dump()
+        np.testing.assert_array_equal(early.positions(), late.positions())
+
+    def test_a_mass_of_zero_stops(self):
+        result = attempt(scene(**{**self.CELL, "ib": "fix m all property/atom rmass ghost yes\n" + SHEAR["ib"] +
+                                  " scheme direct"}))
+        self.assertIn("has mass 0; scheme direct needs a mass > 0", result.error)
 
 
 if __name__ == "__main__":
