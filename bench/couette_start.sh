@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds and compares fix rbc/fluid with LAMMPS's fix lb/fluid in start-up of Couette flow, error against run time,
-# on one core: couette_start.csv and couette_start.png beside this script. Takes about half an hour on an idle core.
+# on one core: couette_start.csv and couette_start.png beside this script. Takes 12 minutes with --repeats 1.
 #   usage: couette_start.sh [--repeats n]
 . "$(dirname "$0")/../scripts/common.sh"
 "$ROOT/scripts/build.sh" 4Feb2025 lmp_rbc lb_fluid
