@@ -34,12 +34,6 @@ struct Fluxes {
   }
 };
 
-template <typename Row> void for_each_row(const Box &brick, Row row)
-{
-  for (int k = brick.lo[2]; k < brick.hi[2]; ++k)
-    for (int j = brick.lo[1]; j < brick.hi[1]; ++j) row(j, k);
-}
-
 template <int c>
 void add_component(const Box &brick, const Box &stored, const Fluxes &fluxes, double factor,
                    const View<double> &result)

@@ -57,4 +57,19 @@ inline Box intersection(const Box &a, const Box &b)
   return box.empty() ? Box{} : box;
 }
 
+/// Visits the rows of a box along x: visit(j, k).
+template <typename Visit> void for_each_row(const Box &box, Visit visit)
+{
+  for (int k = box.lo[2]; k < box.hi[2]; ++k)
+    for (int j = box.lo[1]; j < box.hi[1]; ++j) visit(j, k);
+}
+
+/// Visits the cells of a box: visit(i, j, k).
+template <typename Visit> void for_each_cell(const Box &box, Visit visit)
+{
+  for_each_row(box, [&](int j, int k) {
+    for (int i = box.lo[0]; i < box.hi[0]; ++i) visit(i, j, k);
+  });
+}
+
 }    // namespace fluid

@@ -23,11 +23,10 @@ double fastest(const Flow &flow, const Markers &markers, const double *target)
   double speed = 0;
   for_each_number(markers,
                   [&](int, std::size_t i) { speed = std::max(speed, std::abs(target[i])); });
-  for (const View<double> &u : flow.velocity().views())
-    for (int k = flow.brick().lo[2]; k < flow.brick().hi[2]; ++k)
-      for (int j = flow.brick().lo[1]; j < flow.brick().hi[1]; ++j)
-        for (int i = flow.brick().lo[0]; i < flow.brick().hi[0]; ++i)
-          speed = std::max(speed, std::abs(u(i, j, k)));
+  const auto u = flow.velocity().views();
+  for_each_cell(flow.brick(), [&](int i, int j, int k) {
+    for (int c = 0; c < 3; ++c) speed = std::max(speed, std::abs(u[c](i, j, k)));
+  });
   MPI_Allreduce(MPI_IN_PLACE, &speed, 1, MPI_DOUBLE, MPI_MAX, flow.decomposition().comm);
   return speed;
 }

@@ -8,12 +8,6 @@ namespace fluid {
 
 namespace {
 
-template <typename Row> void for_each_row(const Box &box, Row row)
-{
-  for (int k = box.lo[2]; k < box.hi[2]; ++k)
-    for (int j = box.lo[1]; j < box.hi[1]; ++j) row(j, k);
-}
-
 /// y += factor x over the brick and, where both are stored alike, its ghosts.
 void add(const Box &brick, const VectorField &y, double factor, const VectorField &x)
 {

@@ -73,9 +73,7 @@ class Flow {
   {
     const auto u = velocity_.views();
     for (int c = 0; c < 3; ++c)
-      for (int k = brick().lo[2]; k < brick().hi[2]; ++k)
-        for (int j = brick().lo[1]; j < brick().hi[1]; ++j)
-          for (int i = brick().lo[0]; i < brick().hi[0]; ++i) u[c](i, j, k) = value(c, i, j, k);
+      for_each_cell(brick(), [&](int i, int j, int k) { u[c](i, j, k) = value(c, i, j, k); });
     shared_ = false;
   }
 

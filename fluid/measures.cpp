@@ -6,13 +6,6 @@ namespace fluid {
 
 namespace {
 
-template <typename Visit> void for_each_cell(const Box &box, Visit visit)
-{
-  for (int k = box.lo[2]; k < box.hi[2]; ++k)
-    for (int j = box.lo[1]; j < box.hi[1]; ++j)
-      for (int i = box.lo[0]; i < box.hi[0]; ++i) visit(i, j, k);
-}
-
 template <typename Values> void sum_over_ranks(Values &values, MPI_Comm comm)
 {
   MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM,
