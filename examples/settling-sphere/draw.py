@@ -1,4 +1,4 @@
-"""Draws settling.dat, written by in.settling-sphere: the speed of the sphere against the Basset-Boussinesq-Oseen
+"""Draws settling.dat and scene.dat, written by in.settling-sphere: the speed of the sphere against the Basset-Boussinesq-Oseen
 equation of a sphere alone (short times) and the steady drag of a cubic array (long times)."""
 
 import sys
@@ -10,8 +10,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-SIDE, CELLS, MASS, WEIGHT, TIMESTEP = 5.83, 36, 1.0, 2.0, 0.01    # as in in.settling-sphere
-VOLUME = 4 * np.pi / 3
+FOLDER = Path(sys.argv[1] if len(sys.argv) > 1 else ".")
+SIDE, CELLS, MASS, WEIGHT, TIMESTEP = np.loadtxt(FOLDER / "scene.dat")
 
 
 def hydrodynamic_radius():
@@ -29,7 +29,7 @@ def array_drag(radius):
 def alone(radius, times):
     """Basset-Boussinesq-Oseen: (m + V + V/2) u' + 6 pi a (u + a int u'(s) / sqrt(pi (t - s)) ds) = F, with the
     acceleration constant over each interval."""
-    volume = VOLUME * radius**3
+    volume = 4 * np.pi / 3 * radius**3
     inertia, drag = MASS + 1.5 * volume, 6 * np.pi * radius
     speed, acceleration = [0.0], []
     for n in range(1, len(times)):
@@ -44,8 +44,8 @@ def alone(radius, times):
     return np.array(speed)
 
 
-def main(folder):
-    step, _, speed = np.loadtxt(folder / "settling.dat").T
+def main():
+    step, _, speed = np.loadtxt(FOLDER / "settling.dat").T
     time, radius = step * TIMESTEP, hydrodynamic_radius()
     terminal = WEIGHT / (6 * np.pi * radius * array_drag(radius))
     fine = np.linspace(0, 1, 2001)
@@ -64,8 +64,8 @@ def main(folder):
     axis.set_ylim(0, 1.3 * terminal)
     axis.legend()
     figure.tight_layout()
-    figure.savefig(folder / "settling.png", dpi=110)
+    figure.savefig(FOLDER / "settling.png", dpi=110)
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1] if len(sys.argv) > 1 else "."))
+    main()

@@ -310,5 +310,9 @@ void RBCCreate::create_atoms(const std::vector<Vertices> &cells)
 
   // LAMMPS wants a mass; fix rbc/ib uses it with scheme direct only
 
-  if (atom->mass && !atom->mass_setflag[type]) atom->set_mass(FLERR, type, 1.0);
+  if (atom->mass && !atom->mass_setflag[type]) {
+    atom->set_mass(FLERR, type, 1.0);
+    if (comm->me == 0)
+      utils::logmesg(lmp, "Mass of atom type {} set to 1.0, for it has not been set\n", type);
+  }
 }
