@@ -1,7 +1,5 @@
 #include "banded.h"
-#include "mean_profile.h"
-#include "mode_solver.h"
-#include "wave_vectors.h"
+#include "plate_modes.h"
 
 namespace fluid {
 
@@ -11,42 +9,34 @@ namespace {
 ///   (s - viscosity lap) u* + grad p = f,   lap phi = s div u*,   u = u* - grad phi / s,
 ///   p += phi - viscosity div u*.
 /// As in WalledModes, the part of the velocity along the wave vector is taken times i, which makes all real.
-class ProjectedModes : public ModeSolver {
+class ProjectedModes : public PlateModes {
  public:
   ProjectedModes(const Grid &grid, const Box &modes, double viscosity, double shift) :
-      grid_(grid), modes_(modes), viscosity_(viscosity), shift_(shift),
-      x_(grid.cells[0], grid.spacing[0], modes.lo[0], modes.hi[0]),
-      y_(grid.cells[1], grid.spacing[1], modes.lo[1], modes.hi[1]), across_(grid.cells[2]),
-      along_(grid.cells[2]), vertical_(grid.cells[2] - 1), potential_(grid.cells[2]),
-      pressure_(grid.cells[2]), mean_(grid, viscosity), kept_(modes)
+      PlateModes(grid, modes, viscosity, shift), across_(grid.cells[2]), along_(grid.cells[2]),
+      vertical_(grid.cells[2] - 1), potential_(grid.cells[2]), pressure_(grid.cells[2]),
+      kept_(modes)
   {
   }
 
-  void set_shift(double shift) override { shift_ = shift; }
   const Components<Complex, 1> *kept_pressure() const override { return &kept_; }
 
   void solve(const std::array<View<Complex>, 3> &spectrum, const Drive &drive,
              const View<Complex> *) override
   {
-    const bool mean = modes_.contains({0, 0, 0});
-    if (mean) mean_.solve(spectrum, shift_, drive);
-    const int columns = modes_.empty() ? 0 : modes_.extent(0) * modes_.extent(1);
-    for (int first = 0; first < columns; first += lanes)
-      solve_block(spectrum, first, std::min(lanes, columns - first));
-    const View<Complex> pressure = kept_[0];
-    if (mean) mean_.store(spectrum, &pressure);
+    const View<Complex> kept = kept_[0];
+    PlateModes::solve(spectrum, drive, &kept);
   }
 
  private:
-  /// Modes first, first + 1, ... of the plane.
-  void solve_block(const std::array<View<Complex>, 3> &spectrum, int first, int count)
+  void solve_block(const std::array<View<Complex>, 3> &spectrum, const View<Complex> *pressure,
+                   int first, int count) override
   {
     const int n = grid_.cells[2];
     const double h = grid_.spacing[2], b = viscosity_ / (h * h);
     const double scale = 1.0 / (double(grid_.cells[0]) * grid_.cells[1]);
     const auto [kappa, along_x, along_y, ex, ey] = WaveVectors(x_, y_, modes_, first, count);
     const Lanes a = shift_ + viscosity_ * kappa * kappa;
-    const View<Complex> kept = kept_[0];
+    const View<Complex> &kept = *pressure;
     const auto at = [&](const View<Complex> &view, int k) {
       return &view(modes_.lo[0], modes_.lo[1], k) + first;
     };
@@ -91,13 +81,8 @@ class ProjectedModes : public ModeSolver {
     }
   }
 
-  Grid grid_;
-  Box modes_;
-  double viscosity_, shift_;
-  Wavenumbers x_, y_;
   HelmholtzColumns<lanes> across_, along_, vertical_, potential_;
   Columns<lanes> pressure_;
-  MeanProfile mean_;
   Components<Complex, 1> kept_;
 };
 

@@ -1,6 +1,5 @@
 #include "banded.h"
-#include "mean_profile.h"
-#include "wave_vectors.h"
+#include "plate_modes.h"
 
 namespace fluid {
 
@@ -12,33 +11,17 @@ namespace {
 /// definite system
 ///   (q A_w + D^T A_c D) w = q f_w + kappa h D^T f_along,   q = (kappa h)^2,
 /// where A_w, A_c are the Helmholtz operators on faces and centres and D the difference in z.
-class WalledModes : public ModeSolver {
+class WalledModes : public PlateModes {
  public:
   WalledModes(const Grid &grid, const Box &modes, double viscosity, double shift) :
-      grid_(grid), modes_(modes), viscosity_(viscosity), shift_(shift),
-      x_(grid.cells[0], grid.spacing[0], modes.lo[0], modes.hi[0]),
-      y_(grid.cells[1], grid.spacing[1], modes.lo[1], modes.hi[1]), across_(grid.cells[2]),
-      along_(grid.cells[2]), vertical_(grid.cells[2]), mean_(grid, viscosity)
+      PlateModes(grid, modes, viscosity, shift), across_(grid.cells[2]), along_(grid.cells[2]),
+      vertical_(grid.cells[2])
   {
-  }
-
-  void set_shift(double shift) override { shift_ = shift; }
-
-  void solve(const std::array<View<Complex>, 3> &spectrum, const Drive &drive,
-             const View<Complex> *pressure) override
-  {
-    const bool mean = modes_.contains({0, 0, 0});
-    if (mean) mean_.solve(spectrum, shift_, drive);
-    const int columns = modes_.empty() ? 0 : modes_.extent(0) * modes_.extent(1);
-    for (int first = 0; first < columns; first += lanes)
-      solve_block(spectrum, pressure, first, std::min(lanes, columns - first));
-    if (mean) mean_.store(spectrum, pressure);
   }
 
  private:
-  /// Modes first, first + 1, ... of the plane.
   void solve_block(const std::array<View<Complex>, 3> &spectrum, const View<Complex> *pressure,
-                   int first, int count)
+                   int first, int count) override
   {
     const int n = grid_.cells[2];
     const double h = grid_.spacing[2], b = viscosity_ / (h * h);
@@ -91,14 +74,9 @@ class WalledModes : public ModeSolver {
     }
   }
 
-  Grid grid_;
-  Box modes_;
-  double viscosity_, shift_;
-  Wavenumbers x_, y_;
   HelmholtzColumns<lanes> across_;
   Columns<lanes> along_;
   VerticalColumns<lanes> vertical_;
-  MeanProfile mean_;
 };
 
 }    // namespace

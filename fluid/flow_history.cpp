@@ -1,0 +1,106 @@
+#include "flow.h"
+#include "history.h"
+
+namespace fluid {
+
+// The history is the velocity, with convection that before it, with projection the pressure modes.
+
+namespace {
+
+constexpr std::size_t head = 14;    // steps, dt, walls, previous walls
+
+Box all_modes(const Grid &grid)
+{
+  Box box = grid.domain();
+  box.hi[0] = grid.cells[0] / 2 + 1;
+  return box;
+}
+
+}    // namespace
+
+std::size_t Flow::history_length() const
+{
+  if (regime_.inertia == Inertia::none) return 0;
+  const std::size_t fields = regime_.inertia == Inertia::convective ? 2 : 1;
+  return head + fields * 3 * grid_.size() +
+         (solver_.kept_modes() ? 2 * all_modes(grid_).size() : 0);
+}
+
+std::vector<double> Flow::history()
+{
+  std::vector<double> all;
+  if (regime_.inertia == Inertia::none) return all;
+  const auto append = [&](const auto &whole) {
+    const auto *const first = reinterpret_cast<const double *>(whole[0].data);
+    all.insert(all.end(), first, first + whole.bytes() / sizeof(double));
+  };
+  const MPI_Comm comm = decomposition_.comm;
+  if (decomposition_.rank == 0) {
+    all.reserve(history_length());
+    all.assign({static_cast<double>(steps_), dt_});
+    for (const Vec3 &wall :
+         {walls_.lower, walls_.upper, previous_walls_.lower, previous_walls_.upper})
+      all.insert(all.end(), wall.begin(), wall.end());
+  }
+  append(gather(comm, decomposition_.bricks, grid_.domain(), velocity_));
+  if (regime_.inertia == Inertia::convective)
+    append(gather(comm, decomposition_.bricks, grid_.domain(), previous_));
+  if (const auto *kept = solver_.kept_modes())
+    append(gather(comm, solver_.mode_bricks(), all_modes(grid_), *kept));
+  return all;
+}
+
+void Flow::restore(const double *history)
+{
+  steps_ = static_cast<int>(history[0]);
+  dt_ = history[1];
+  const double *wall = history + 2;
+  for (Vec3 *to : {&walls_.lower, &walls_.upper, &previous_walls_.lower, &previous_walls_.upper}) {
+    std::copy_n(wall, 3, to->begin());
+    wall += 3;
+  }
+  const double *next = history + head;
+  cut_out(brick(), grid_.domain(), next, velocity_);
+  next += 3 * grid_.size();
+  if (regime_.inertia == Inertia::convective) {
+    cut_out(brick(), grid_.domain(), next, previous_);
+    next += 3 * grid_.size();
+    fill_ghosts(previous_, previous_walls_);
+  }
+  if (const auto *kept = solver_.kept_modes())
+    cut_out(kept->box(), all_modes(grid_), reinterpret_cast<const Complex *>(next), *kept);
+  shared_ = stepped_ = false;
+  if (pressure_.bytes()) pressure_.clear();
+}
+
+void Flow::take_over(Flow &old)
+{
+  drive = old.drive;
+  solved_drive_ = old.solved_drive_;
+  walls_ = old.walls_;
+  previous_walls_ = old.previous_walls_;
+  if (has_force_) {
+    lower_direct_ = old.lower_direct_;
+    upper_direct_ = old.upper_direct_;
+  }
+  steps_ = old.steps_;
+  solves_ = old.solves_;
+  dt_ = old.dt_;
+  if (regime_.inertia != Inertia::none) set_shift(old.shift_);
+  stepped_ = old.stepped_;
+  shared_ = false;
+  const auto move_field = [&](const VectorField &from, const VectorField &to) {
+    move(decomposition_.comm, old.decomposition_.bricks, from.views(), decomposition_.bricks,
+         to.views());
+  };
+  move_field(old.velocity_, velocity_);
+  if (old.has_force_ && has_force_) move_field(old.force_, force_);
+  if (regime_.inertia != Inertia::none) move_field(old.previous_, previous_);
+  if (regime_.inertia == Inertia::convective) move_field(old.rhs_, rhs_);
+  if (regime_.inertia == Inertia::convective) fill_ghosts(previous_, previous_walls_);
+  if (const auto *kept = solver_.kept_modes())
+    move(decomposition_.comm, old.solver_.mode_bricks(), old.solver_.kept_modes()->views(),
+         solver_.mode_bricks(), kept->views());
+}
+
+}    // namespace fluid
