@@ -268,7 +268,7 @@ int FixRBCFluid::layers_needed() const
   if (!driven) return 0;
   double layers = 0;
   for (int d = 0; d < 3; ++d)
-    layers = std::max(layers, 0.5 * neighbor->skin / (domain->prd[d] / cells[d]) + 1.0);
+    layers = std::max(layers, 0.5 * neighbor->skin / (domain->prd[d] / cells[d]) + cells_per_step);
   return static_cast<int>(std::ceil(layers)) + KERNEL_LAYERS;
 }
 
@@ -332,11 +332,13 @@ void FixRBCFluid::init()
 
   std::string driver;
   for (Fix *fix : modify->get_fix_by_style("^rbc/ib$")) {
-    if (dynamic_cast<FixRBCIB *>(fix)->fluid() != id) continue;
+    const auto ib = dynamic_cast<FixRBCIB *>(fix);
+    if (ib->fluid() != id) continue;
     if (!driver.empty())
       error->all(FLERR, "Fix rbc/fluid {} cannot be used by both fix rbc/ib {} and {}", id, driver,
                  fix->id);
     driver = fix->id;
+    cells_per_step = ib->courant();
   }
   driven = !driver.empty();
   if (layers_needed() != ghost_layers) build_flow();
@@ -358,7 +360,8 @@ void FixRBCFluid::final_integrate()
 {
   if (driven) return;
   if (has_inertia()) {
-    drive_middle();
+    begin_step();
+    drive_at(0.5);
     current_flow->start_step(update->dt);
     drive_end();
     current_flow->finish_step();
@@ -459,19 +462,26 @@ void FixRBCFluid::drive_now()
 }
 
 /* ----------------------------------------------------------------------
-   in the middle of a step the drive is the mean of that at its ends
+   within a step the drive is interpolated between its ends; a step that is taken again may be shorter
 ------------------------------------------------------------------------- */
 
-void FixRBCFluid::drive_middle()
+void FixRBCFluid::begin_step(bool again)
 {
-  const fluid::Drive start = end_of_step;
+  if (!again) start_of_step = end_of_step;
   end_of_step = evaluate_drive();
-  fluid::Drive &middle = current_flow->drive;
+}
+
+void FixRBCFluid::drive_at(double fraction)
+{
+  fluid::Drive &drive = current_flow->drive;
+  const auto mix = [fraction](double start, double end) {
+    return start + fraction * (end - start);
+  };
   for (int d = 0; d < 3; ++d) {
-    middle.walls.lower[d] = 0.5 * (start.walls.lower[d] + end_of_step.walls.lower[d]);
-    middle.walls.upper[d] = 0.5 * (start.walls.upper[d] + end_of_step.walls.upper[d]);
-    middle.body[d] = 0.5 * (start.body[d] + end_of_step.body[d]);
-    middle.mean[d] = 0.5 * (start.mean[d] + end_of_step.mean[d]);
+    drive.walls.lower[d] = mix(start_of_step.walls.lower[d], end_of_step.walls.lower[d]);
+    drive.walls.upper[d] = mix(start_of_step.walls.upper[d], end_of_step.walls.upper[d]);
+    drive.body[d] = mix(start_of_step.body[d], end_of_step.body[d]);
+    drive.mean[d] = mix(start_of_step.mean[d], end_of_step.mean[d]);
   }
 }
 

@@ -43,7 +43,8 @@ class FixRBCFluid : public Fix {
   bool has_inertia() const { return regime.inertia != fluid::Inertia::none; }
   void drive_at_setup();
   void drive_now();
-  void drive_middle();
+  void begin_step(bool again = false);
+  void drive_at(double fraction);
   void drive_end();
   void flow_changed();
   bigint solves() const { return current_flow->solves() + earlier_solves; }
@@ -64,10 +65,11 @@ class FixRBCFluid : public Fix {
   std::unique_ptr<class Grid3d> grid;
   std::unique_ptr<fluid::Flow> current_flow;
   int ghost_layers = -1;
-  bool driven = false;     // by a fix rbc/ib
-  bool varying = false;    // a variable drives the flow
+  bool driven = false;          // by a fix rbc/ib
+  double cells_per_step = 1;    // that its atoms may cross
+  bool varying = false;         // a variable drives the flow
   bool drive_known = false;
-  fluid::Drive end_of_step;
+  fluid::Drive start_of_step, end_of_step;
   bigint earlier_solves = 0;         // before a restart
   bigint version = 0;                // of the velocity
   fluid::Traffic earlier_traffic;    // on earlier decompositions

@@ -1,42 +1,75 @@
 #include "fix_rbc_ib.h"
 
-#include "angle.h"
 #include "atom.h"
-#include "bond.h"
 #include "comm.h"
-#include "dihedral.h"
-#include "domain.h"
 #include "error.h"
 #include "fix_rbc_fluid.h"
 #include "fix_rbc_membrane.h"
 #include "fix_store_atom.h"
 #include "force.h"
 #include "group.h"
-#include "improper.h"
-#include "kspace.h"
 #include "modify.h"
+#include "output.h"
 #include "pair.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
+// integrator rkc auto: steps between estimates of the spectral radius, its safety factor, and how far points are
+// displaced for it, over the spacing of the fluid
+
+static constexpr int RADIUS_EVERY = 50;
+static constexpr double RADIUS_SAFETY = 1.1;
+static constexpr double RADIUS_DISPLACEMENT = 1.0e-5;
+
+// integrator rkc of an order above 2: largest ratio of a timestep to the one before, parts of a step without a past
+
+static constexpr double LARGEST_GROWTH = 1.2;
+static constexpr int STARTING_PARTS = 16;
+
+static constexpr int NSTATE = 3 + rbc::Path::LONGEST;    // numbers in restart files
+
 /* ---------------------------------------------------------------------- */
 
 FixRBCIB::FixRBCIB(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
 {
   time_integrate = 1;
+  vector_flag = 1;
+  size_vector = 9;
+  global_freq = 1;
+  extvector = 0;
 
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix rbc/ib", error);
   fluid_id = arg[3];
+  parse(narg, arg);
+
+  if (stored() > 0) create_attribute = 1;
+  if (stored() > 0 || control.active()) restart_global = 1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCIB::parse(int narg, char **arg)
+{
+  double courant = 1;
+  int stages = 0, order = 2;
   int iarg = 4;
-  bool direct_options = false;
+  const auto need = [&](int n, const std::string &keyword) {
+    if (iarg + n >= narg) utils::missing_cmd_args(FLERR, "fix rbc/ib " + keyword, error);
+  };
+  const auto positive = [&](int at, const std::string &name) {
+    const double value = utils::numeric(FLERR, arg[at], false, lmp);
+    if (!(value > 0)) error->all(FLERR, at, "Fix rbc/ib {} value {} must be > 0", name, arg[at]);
+    return value;
+  };
   while (iarg < narg) {
     const std::string keyword = arg[iarg];
-    if (iarg + 1 >= narg) utils::missing_cmd_args(FLERR, "fix rbc/ib " + keyword, error);
+    need(1, keyword);
     const std::string value = arg[iarg + 1];
     if (keyword == "kernel") {
       if (value == "peskin4")
@@ -50,9 +83,22 @@ FixRBCIB::FixRBCIB(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
         integrator = Integrator::MIDPOINT;
       else if (value == "euler")
         integrator = Integrator::EULER;
-      else
-        error->all(FLERR, iarg + 1, "Unknown fix rbc/ib integrator {}; allowed: euler, midpoint",
-                   value);
+      else if (value == "ab2")
+        integrator = Integrator::AB2;
+      else if (value == "rkc") {
+        integrator = Integrator::RKC;
+        need(2, "integrator rkc");
+        automatic_stages = strcmp(arg[iarg + 2], "auto") == 0;
+        if (!automatic_stages) {
+          stages = utils::inumeric(FLERR, arg[iarg + 2], false, lmp);
+          if (stages < 2)
+            error->all(FLERR, iarg + 2, "Fix rbc/ib rkc stages {} must be auto or >= 2",
+                       arg[iarg + 2]);
+        }
+        ++iarg;
+      } else
+        error->all(FLERR, iarg + 1,
+                   "Unknown fix rbc/ib integrator {}; allowed: euler, midpoint, ab2, rkc", value);
     } else if (keyword == "scheme") {
       if (value == "elastic")
         scheme = Scheme::ELASTIC;
@@ -65,29 +111,52 @@ FixRBCIB::FixRBCIB(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
       direct.tolerance = utils::numeric(FLERR, value, false, lmp);
       if (!(direct.tolerance > 0 && direct.tolerance < 1))
         error->all(FLERR, iarg + 1, "Fix rbc/ib tol value {} must be between 0 and 1", value);
-      direct_options = true;
+      iterates = true;
     } else if (keyword == "maxiter") {
       direct.max_solves = utils::inumeric(FLERR, value, false, lmp);
       if (direct.max_solves < 1)
         error->all(FLERR, iarg + 1, "Fix rbc/ib maxiter value {} must be > 0", value);
-      direct_options = true;
+      iterates = true;
+    } else if (keyword == "order") {
+      order = utils::inumeric(FLERR, value, false, lmp);
+      if (order < 2 || order > 4)
+        error->all(FLERR, iarg + 1, "Fix rbc/ib order value {} must be 2, 3 or 4", value);
+    } else if (keyword == "courant")
+      courant = positive(iarg + 1, keyword);
+    else if (keyword == "adapt") {
+      need(2, keyword);
+      control.tolerance = positive(iarg + 1, "adapt error");
+      control.largest = positive(iarg + 2, "adapt largest timestep");
+      ++iarg;
     } else
       error->all(FLERR, iarg,
-                 "Unknown fix rbc/ib keyword {}; allowed: kernel, scheme, integrator, tol, maxiter",
+                 "Unknown fix rbc/ib keyword {}; allowed: kernel, scheme, integrator, order, tol, "
+                 "maxiter, courant, adapt",
                  keyword);
     iarg += 2;
   }
-  if (direct_options && scheme != Scheme::DIRECT)
-    error->all(FLERR, "Fix rbc/ib tol and maxiter need scheme direct");
+  if (order > 2 && integrator != Integrator::RKC)
+    error->all(FLERR, "Fix rbc/ib order {} needs integrator rkc", order);
+  chebyshev = rbc::ChebyshevMethod(order);
+  if (stages > 0) chebyshev.set_stages(stages);
+  control.order = integrator == Integrator::EULER ? 1 : 2;
+  control.growth = order > 2 ? LARGEST_GROWTH : 2;
 
-  if (scheme == Scheme::DIRECT) {
-    restart_global = 1;
-    create_attribute = 1;
-    vector_flag = 1;
-    size_vector = 4;
-    global_freq = 1;
-    extvector = 0;
-  }
+  motion = std::make_unique<MarkerMotion>(lmp, fmt::format("Fix rbc/ib {}", id), groupbit, kernel);
+  motion->courant = courant;
+  motion->tolerance = direct.tolerance;
+  motion->gmres.max_iterations = direct.max_solves;
+}
+
+/* ----------------------------------------------------------------------
+   numbers kept for each atom
+------------------------------------------------------------------------- */
+
+int FixRBCIB::stored() const
+{
+  if (scheme == Scheme::DIRECT) return STEPS + 1;
+  if (integrator == Integrator::AB2) return PAST + 3;
+  return mode_column() + (automatic_stages ? 3 : 0);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -101,10 +170,10 @@ FixRBCIB::~FixRBCIB()
 
 void FixRBCIB::post_constructor()
 {
-  if (scheme != Scheme::DIRECT) return;
+  if (stored() == 0) return;
   store_id = std::string(id) + "_STORE_MOTION";
   store = dynamic_cast<FixStoreAtom *>(modify->add_fix(
-      fmt::format("{} {} STORE/ATOM {} 0 0 1", store_id, group->names[igroup], NSTORED)));
+      fmt::format("{} {} STORE/ATOM {} 0 0 1", store_id, group->names[igroup], stored())));
 }
 
 /* ----------------------------------------------------------------------
@@ -113,7 +182,7 @@ void FixRBCIB::post_constructor()
 
 void FixRBCIB::set_arrays(int i)
 {
-  std::fill_n(store->astore[i], NSTORED, 0.0);
+  std::fill_n(store->astore[i], stored(), 0.0);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -133,6 +202,14 @@ void FixRBCIB::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix rbc/ib cannot be used with run_style respa");
   if (update->whichflag == 2) error->all(FLERR, "Fix rbc/ib cannot be used with minimize");
+  const bool explicit_steps = integrator == Integrator::EULER || integrator == Integrator::MIDPOINT;
+  if (fluid_fix->has_inertia() && !explicit_steps)
+    error->all(FLERR,
+               "Fix rbc/ib {}: fix rbc/fluid {} has inertia, for which integrator must be euler or "
+               "midpoint",
+               id, fluid_id);
+  if (fluid_fix->has_inertia() && control.active())
+    error->all(FLERR, "Fix rbc/ib {} adapt needs fix rbc/fluid {} inertia none", id, fluid_id);
   if (scheme == Scheme::DIRECT) {
     if (!fluid_fix->has_inertia())
       error->all(FLERR,
@@ -145,7 +222,7 @@ void FixRBCIB::init()
   }
 
   membranes.clear();
-  keepers.clear();
+  bool viscous = false;
   late_forces = false;
   bool before = true;
   for (Fix *fix : modify->get_fix_list()) {
@@ -156,14 +233,25 @@ void FixRBCIB::init()
     if (!before)
       error->all(FLERR, "Fix rbc/ib {} must be defined after fix rbc/membrane {}", id, fix->id);
     membranes.push_back(membrane);
-    if (!membrane->keeps_volume()) continue;
-    check_moves_all(fix);
-    keepers.push_back(membrane);
+    if (membrane->keeps_volume() || membrane->is_viscous()) check_moves_all(fix);
+    viscous = viscous || membrane->is_viscous();
+  }
+  if (viscous && fluid_fix->has_inertia())
+    error->all(FLERR, "Fix rbc/ib {}: membranes with viscosity need fix rbc/fluid {} inertia none",
+               id, fluid_id);
+  if (iterates && scheme != Scheme::DIRECT && !viscous)
+    error->all(FLERR, "Fix rbc/ib tol and maxiter need scheme direct, integrator implicit or a fix "
+                      "rbc/membrane with viscosity");
+  motion->connect(fluid_fix, membranes);
+  if (control.active()) {
+    control.smallest = 1e-6 * control.largest;
+    if (next_dt == 0) next_dt = std::min(update->dt, control.largest);
+    set_timestep(next_dt);
   }
 }
 
 /* ----------------------------------------------------------------------
-   keeping a cell's volume changes the velocities of all its vertices
+   keeping a cell's volume changes the velocities of all its vertices, and the viscosity of its membrane depends on them
 ------------------------------------------------------------------------- */
 
 void FixRBCIB::check_moves_all(const Fix *membrane) const
@@ -175,7 +263,7 @@ void FixRBCIB::check_moves_all(const Fix *membrane) const
   if (left_out)
     error->all(FLERR,
                "Fix rbc/ib {} does not move all atoms of fix rbc/membrane {}, which keeps the "
-               "volume of its cells",
+               "volume of its cells or has viscosity",
                id, membrane->id);
 }
 
@@ -188,10 +276,12 @@ void FixRBCIB::setup_post_neighbor()
 
 void FixRBCIB::post_neighbor()
 {
-  members.clear();
-  for (int i = 0; i < atom->nlocal; ++i)
-    if (atom->mask[i] & groupbit) members.push_back(i);
-  start_of_step.resize(3 * members.size());
+  motion->find_markers();
+  if (integrator != Integrator::RKC || chebyshev.past_steps() == 0) return;
+  known_steps = chebyshev.past_steps();
+  for (int i : motion->members())
+    known_steps = std::min(known_steps, static_cast<int>(store->astore[i][KNOWN]));
+  MPI_Allreduce(MPI_IN_PLACE, &known_steps, 1, MPI_INT, MPI_MIN, world);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -200,61 +290,227 @@ void FixRBCIB::setup(int /*vflag*/)
 {
   fluid_fix->drive_at_setup();
   first_step = update->ntimestep;
-  unconverged = 0;
+  unconverged = rejected = 0;
+  radius_step = -1;
   if (!fluid_fix->has_inertia())
-    update_velocities(Stage::START);
+    motion->update_velocities(Stage::START);
   else if (scheme == Scheme::ELASTIC && fluid_fix->flow().steps() == 0)
-    interpolate(Stage::START);
-  else
-    check_velocities();
-  for (rbc::Stopwatch *watch : {&spreading, &solving, &interpolating, &exchanging}) watch->reset();
+    motion->interpolate(Stage::START);
+  motion->check_velocities();
+  motion->reset_stopwatches();
   for (FixRBCMembrane *membrane : membranes) membrane->stopwatch.reset();
   first_solve = fluid_fix->solves();
   fluid_fix->count_from_here();
 }
 
 /* ----------------------------------------------------------------------
-   velocities hold those of the flow at the start of the step; with inertia, those in the middle of the last step
-   (fluid velocities at the end of a step may ring, see Crank-Nicolson; good to second order for half a step)
+   velocities hold those of the flow at the start of the step
 ------------------------------------------------------------------------- */
 
 void FixRBCIB::initial_integrate(int /*vflag*/)
 {
-  const bool steady = !fluid_fix->has_inertia();
-  if (steady && late_forces && update->ntimestep == first_step + 1) update_velocities(Stage::START);
+  if (fluid_fix->has_inertia()) {
+    advance_with_inertia();
+    return;
+  }
+  if (late_forces && update->ntimestep == first_step + 1) motion->update_velocities(Stage::START);
+  if (control.active()) set_timestep(next_dt);
 
-  const double *const x = members.empty() ? nullptr : atom->x[0];
-  const int count = static_cast<int>(members.size());
-  for (int n = 0; n < count; ++n)
-    for (int d = 0; d < 3; ++d) start_of_step[3 * n + d] = x[3 * members[n] + d];
+  motion->load(atom->x, start);
+  motion->load(atom->v, velocity);
+  bool again = false;
+  do {
+    fluid_fix->begin_step(again);
+    advance();
+    again = true;
+  } while (control.active() && !accept_step());
+  motion->store(position, atom->x);
+  motion->check_positions();
+  if (stored() > 0) remember();
+  last_dt = update->dt;
+}
 
-  if (integrator == Integrator::MIDPOINT) {
-    move(0.5 * update->dt);
-    check_positions();
-    fluid_fix->drive_middle();
-    exchanging.start();
-    comm->forward_comm();
-    exchanging.stop();
-    recompute_forces();
-    if (steady) update_velocities(Stage::MIDDLE);
-  } else if (!steady)
-    fluid_fix->drive_middle();
-  if (!steady) step_fluid();
+/* ----------------------------------------------------------------------
+   positions at the end of the step from those and the velocities at its start
+------------------------------------------------------------------------- */
 
-  move(update->dt);
-  check_positions();
+void FixRBCIB::advance()
+{
+  const double dt = update->dt;
+  const auto move = [&](double span, const rbc::Numbers &by) {
+    position.resize(start.size());
+    for (std::size_t i = 0; i < start.size(); ++i) position[i] = start[i] + span * by[i];
+  };
+
+  if (integrator == Integrator::EULER)
+    move(dt, velocity);
+  else if (integrator == Integrator::MIDPOINT) {
+    move(0.5 * dt, velocity);
+    middle = velocity;
+    motion->velocity(position, 0.5, middle);
+    move(dt, middle);
+  } else if (integrator == Integrator::AB2)
+    advance_ab2();
+  else
+    advance_chebyshev();
+}
+
+/* ----------------------------------------------------------------------
+   an atom without a past takes an Euler step
+------------------------------------------------------------------------- */
+
+void FixRBCIB::advance_ab2()
+{
+  const double dt = update->dt, ratio = last_dt > 0 ? 0.5 * dt / last_dt : 0;
+  position.resize(start.size());
+  const std::vector<int> &members = motion->members();
+  for (std::size_t n = 0; n < members.size(); ++n) {
+    const double *const past = store->astore[members[n]];
+    const double weight = past[KNOWN] > 0 ? ratio : 0;
+
+    for (int d = 0; d < 3; ++d) {
+      const double now = velocity[3 * n + d];
+      position[3 * n + d] = start[3 * n + d] + dt * (now + weight * (now - past[PAST + d]));
+    }
+  }
 }
 
 /* ---------------------------------------------------------------------- */
 
-void FixRBCIB::move(double span)
+void FixRBCIB::advance_chebyshev()
 {
-  double *const x = members.empty() ? nullptr : atom->x[0];
-  const double *const v = members.empty() ? nullptr : atom->v[0];
-  const int count = static_cast<int>(members.size());
-  for (int n = 0; n < count; ++n)
-    for (int d = 0; d < 3; ++d)
-      x[3 * members[n] + d] = start_of_step[3 * n + d] + span * v[3 * members[n] + d];
+  if (automatic_stages && (radius_step < 0 || update->ntimestep >= radius_step + RADIUS_EVERY))
+    estimate_radius();
+
+  const int past_steps = chebyshev.past_steps();
+  path.clear(past_steps);
+  if (update->dt > LARGEST_GROWTH * past_dt[0]) known_steps = 0;
+  for (int n = 0; n < known_steps; ++n) {
+    path.span(n) = past_dt[n];
+    motion->load(store->astore, path.moved(n), PAST + 3 * n);
+  }
+  path.set_steps(known_steps);
+  if (known_steps < past_steps) {
+    start_chebyshev();
+    return;
+  }
+  choose_stages(update->dt);
+  chebyshev.step(*motion, update->dt, start, velocity, path, position);
+}
+
+/* ----------------------------------------------------------------------
+   order above 2: without a past the step is divided, so that it is as accurate as those that follow
+------------------------------------------------------------------------- */
+
+void FixRBCIB::start_chebyshev()
+{
+  const double part = 1.0 / STARTING_PARTS, dt = part * update->dt;
+  const rbc::Path none;
+  choose_stages(dt);
+  position = start;
+  middle = velocity;
+  for (int n = 0; n < STARTING_PARTS; ++n) {
+    if (n > 0) motion->velocity(position, n * part, middle);
+    scratch = position;
+    chebyshev.step(*motion, dt, scratch, middle, none, position, n * part, part);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   what the next steps need to know of this one
+------------------------------------------------------------------------- */
+
+void FixRBCIB::remember()
+{
+  const std::vector<int> &members = motion->members();
+  if (integrator == Integrator::AB2) {
+    motion->store(velocity, store->astore, PAST);
+    for (int i : members) store->astore[i][KNOWN] = 1;
+    return;
+  }
+  const int past_steps = chebyshev.past_steps();
+  if (past_steps == 0) return;
+  known_steps = std::min(known_steps + 1, past_steps);
+  std::rotate(past_dt.begin(), past_dt.end() - 1, past_dt.end());
+  past_dt[0] = update->dt;
+  for (std::size_t n = 0; n < members.size(); ++n) {
+    double *const past = store->astore[members[n]];
+    std::copy_backward(past + PAST, past + PAST + 3 * (past_steps - 1),
+                       past + PAST + 3 * past_steps);
+    for (int d = 0; d < 3; ++d) past[PAST + d] = position[3 * n + d] - start[3 * n + d];
+    past[KNOWN] = known_steps;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   integrator rkc auto
+------------------------------------------------------------------------- */
+
+void FixRBCIB::estimate_radius()
+{
+  motion->load(store->astore, middle, mode_column());
+  if (!(dot(*motion, middle, middle) > 0)) {
+    // a guess without any symmetry
+    const std::vector<int> &members = motion->members();
+    for (std::size_t i = 0; i < middle.size(); ++i)
+      middle[i] = std::sin(1.0 + 12.9898 * static_cast<double>(i % 3) +
+                           78.233 * static_cast<double>(atom->tag[members[i / 3]]));
+  }
+  const double size = RADIUS_DISPLACEMENT * fluid_fix->smallest_spacing() *
+                      std::sqrt(dot(*motion, middle, middle)) / root_mean_square(*motion, middle);
+  radius = RADIUS_SAFETY * spectrum.estimate(*motion, start, velocity, size, middle);
+  if (!std::isfinite(radius))
+    error->all(FLERR, "Fix rbc/ib {}: the spectral radius is not a number at step {}", id,
+               update->ntimestep);
+  motion->store(middle, store->astore, mode_column());
+  radius_step = update->ntimestep;
+}
+
+void FixRBCIB::choose_stages(double dt)
+{
+  if (automatic_stages) chebyshev.set_stages(chebyshev.stages_for(dt * radius));
+}
+
+/* ----------------------------------------------------------------------
+   whether the local error is within its bound, and the timestep that this error suggests
+------------------------------------------------------------------------- */
+
+bool FixRBCIB::accept_step()
+{
+  middle = velocity;
+  motion->velocity(position, 1.0, middle);
+  velocities_known = true;
+  last_error =
+      rbc::StepControl::error(*motion, update->dt, start, position, velocity, middle, scratch);
+  next_dt = control.next(update->dt, last_error);
+  if (last_error <= control.tolerance) return true;
+
+  ++rejected;
+  if (next_dt < control.smallest)
+    error->all(
+        FLERR,
+        "Fix rbc/ib {}: no timestep above {:.3g} meets the error {:.3g} of adapt at step {}; "
+        "the local error is {:.3g}",
+        id, control.smallest, control.tolerance, update->ntimestep, last_error);
+  set_timestep(next_dt);
+  return false;
+}
+
+/* ----------------------------------------------------------------------
+   of the step that ends at update->ntimestep, as fix dt/reset does
+------------------------------------------------------------------------- */
+
+void FixRBCIB::set_timestep(double dt)
+{
+  if (dt == update->dt) return;
+  const bigint begin = std::max(update->ntimestep - (update->setupflag ? 0 : 1), update->atimestep);
+  update->atime += (begin - update->atimestep) * update->dt;
+  update->atimestep = begin;
+  update->dt = dt;
+  update->dt_default = 0;
+  if (force->pair) force->pair->reset_dt();
+  for (Fix *fix : modify->get_fix_list()) fix->reset_dt();
+  output->reset_dt();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -263,47 +519,36 @@ void FixRBCIB::final_integrate()
 {
   if (fluid_fix->has_inertia()) return;
   fluid_fix->drive_now();
-  update_velocities(Stage::START);
+  if (velocities_known)
+    motion->keep_volume(Stage::START);
+  else
+    motion->update_velocities(Stage::START);
+  velocities_known = false;
 }
 
 /* ----------------------------------------------------------------------
-   forces at positions within a step, as Verlet computes them at its end
+   velocities hold those in the middle of the last step (fluid velocities at the end of a step may ring, see
+   Crank-Nicolson; good to second order for half a step)
 ------------------------------------------------------------------------- */
 
-void FixRBCIB::recompute_forces()
+void FixRBCIB::advance_with_inertia()
 {
-  const std::size_t count = atom->nlocal + (force->newton ? atom->nghost : 0);
-  if (count) memset(atom->f[0], 0, 3 * count * sizeof(double));
-
-  constexpr int eflag = 0, vflag = 0;
-  if (modify->n_pre_force) modify->pre_force(vflag);
-  if (force->pair && force->pair->compute_flag) force->pair->compute(eflag, vflag);
-  if (atom->molecular != Atom::ATOMIC) {
-    if (force->bond) force->bond->compute(eflag, vflag);
-    if (force->angle) force->angle->compute(eflag, vflag);
-    if (force->dihedral) force->dihedral->compute(eflag, vflag);
-    if (force->improper) force->improper->compute(eflag, vflag);
+  fluid_fix->begin_step();
+  fluid_fix->drive_at(0.5);
+  motion->load(atom->x, start);
+  const auto move = [this](double span) {
+    motion->load(atom->v, velocity);
+    position.resize(start.size());
+    for (std::size_t i = 0; i < start.size(); ++i) position[i] = start[i] + span * velocity[i];
+    motion->store(position, atom->x);
+    motion->check_positions();
+  };
+  if (integrator == Integrator::MIDPOINT) {
+    move(0.5 * update->dt);
+    motion->recompute_forces();
   }
-  if (force->kspace && force->kspace->compute_flag) force->kspace->compute(eflag, vflag);
-  if (modify->n_pre_reverse) modify->pre_reverse(eflag, vflag);
-  if (force->newton) comm->reverse_comm();
-  if (modify->n_post_force_any) modify->post_force(vflag);
-}
-
-/* ----------------------------------------------------------------------
-   forces -> spread -> solve -> interpolate -> velocities
-------------------------------------------------------------------------- */
-
-void FixRBCIB::update_velocities(Stage stage)
-{
-  spread_forces();
-
-  solving.start();
-  fluid_fix->flow().solve();
-  fluid_fix->flow_changed();
-  solving.stop();
-
-  interpolate(stage);
+  step_fluid();
+  move(update->dt);
 }
 
 /* ----------------------------------------------------------------------
@@ -314,58 +559,23 @@ void FixRBCIB::step_fluid()
 {
   fluid::Flow &flow = fluid_fix->flow();
   if (scheme == Scheme::ELASTIC) {
-    spread_forces();
-    solving.start();
+    motion->spread_forces();
+    motion->solving.start();
     flow.start_step(update->dt);
-    solving.stop();
-    interpolate(Stage::START);
+    motion->solving.stop();
+    motion->interpolate(Stage::START);
   } else {
-    solving.start();
+    motion->solving.start();
     couple_masses();
-    solving.stop();
-    for (FixRBCMembrane *membrane : keepers) membrane->keep_volume(update->dt, true);
-    check_velocities();
+    motion->solving.stop();
+    motion->keep_volume(Stage::START);
   }
-  solving.start();
+  motion->check_velocities();
+  motion->solving.start();
   fluid_fix->drive_end();
   flow.finish_step();
   fluid_fix->flow_changed();
-  solving.stop();
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixRBCIB::spread_forces()
-{
-  fluid::Flow &flow = fluid_fix->flow();
-  spreading.start();
-  flow.clear_force();
-  const int outside = flow.spread(kernel, markers(), rows(atom->x), rows(atom->f), force->ftm2v);
-  if (outside >= 0) stop_outside(outside);
-  spreading.stop();
-
-  exchanging.start();
-  flow.gather_force();
-  exchanging.stop();
-}
-
-/* ----------------------------------------------------------------------
-   atoms take the velocity of the fluid
-------------------------------------------------------------------------- */
-
-void FixRBCIB::interpolate(Stage stage)
-{
-  fluid::Flow &flow = fluid_fix->flow();
-  exchanging.start();
-  flow.share_velocity();
-  exchanging.stop();
-
-  interpolating.start();
-  flow.interpolate(kernel, markers(), rows(atom->x), rows(atom->v));
-  interpolating.stop();
-
-  for (FixRBCMembrane *membrane : keepers) membrane->keep_volume(update->dt, stage == Stage::START);
-  check_velocities();
+  motion->solving.stop();
 }
 
 /* ----------------------------------------------------------------------
@@ -382,9 +592,10 @@ void FixRBCIB::couple_masses()
   resistance.resize(atom->nlocal);
 
   const double between = 0.5 * (dt + last_dt);    // the middles of this step and the last
-  for (int i : members) {
+  for (int i : motion->members()) {
     const double mass = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
-    if (!(mass > 0)) stop(i, fmt::format("has mass {}; scheme direct needs a mass > 0", mass));
+    if (!(mass > 0))
+      motion->stop(i, fmt::format("has mass {}; scheme direct needs a mass > 0", mass));
     const int steps = static_cast<int>(history[i][STEPS]);
     const double span = steps == 0 ? 0.5 * dt : between;
     const double r = steps > 1 ? span / last_between : 1;
@@ -402,16 +613,16 @@ void FixRBCIB::couple_masses()
     history[i][STEPS] = std::min(steps + 1, 2);
   }
 
-  const auto outcome =
-      direct.advance(fluid_fix->flow(), dt,
-                     {kernel, markers(), rows(atom->x), applied.data(), resistance.data(),
-                      target.data(), inertial.data(), rows(atom->v), atom->nlocal});
-  if (outcome.outside >= 0) stop_outside(outcome.outside);
-  last_error = outcome.error;
+  const auto outcome = direct.advance(fluid_fix->flow(), dt,
+                                      {kernel, motion->markers(), motion->rows(atom->x),
+                                       applied.data(), resistance.data(), target.data(),
+                                       inertial.data(), motion->rows(atom->v), atom->nlocal});
+  if (outcome.outside >= 0) motion->stop_outside(outcome.outside);
+  coupling_error = outcome.error;
   if (!(outcome.error <= direct.tolerance)) ++unconverged;
 
   for (double &sum : exerted) sum = 0;
-  for (int i : members)
+  for (int i : motion->members())
     for (int d = 0; d < 3; ++d) {
       history[i][INERTIAL + d] = inertial[3 * i + d];
       history[i][MISSING + d] =
@@ -422,31 +633,32 @@ void FixRBCIB::couple_masses()
   last_between = between;
 }
 
-/* ---------------------------------------------------------------------- */
-
-fluid::Markers FixRBCIB::markers() const
-{
-  return {static_cast<int>(members.size()), members.data()};
-}
-
-double *FixRBCIB::rows(double **array) const
-{
-  return members.empty() ? nullptr : array[0];
-}
-
-void FixRBCIB::stop_outside(int i) const
-{
-  stop(i, "left the fluid its MPI task holds (reneighboring too rare, see neigh_modify)");
-}
-
 /* ----------------------------------------------------------------------
-   scheme direct: 1-3 force of the atoms on the fluid, 4 error of the coupling in the last step
+   1-3 force of the atoms on the fluid, 4 error of the coupling, 5 stages, 6 spectral radius, 7 local error, 8 steps
+   taken again, 9 timestep: of the last step
 ------------------------------------------------------------------------- */
 
 double FixRBCIB::compute_vector(int n)
 {
-  if (n == 3) return last_error;
-  double sum = exerted[n] / force->ftm2v;
+  switch (n) {
+    case 3:
+      return coupling_error;
+    case 4:
+      return integrator == Integrator::RKC ? chebyshev.stages() : 0;
+    case 5:
+      return radius;
+    case 6:
+      return last_error;
+    case 7:
+      return static_cast<double>(rejected);
+    case 8:
+      return last_dt;
+  }
+  double sum = 0;
+  if (scheme == Scheme::DIRECT)
+    sum = exerted[n] / force->ftm2v;
+  else
+    for (int i : motion->members()) sum += atom->f[i][n];
   MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, world);
   return sum;
 }
@@ -456,10 +668,11 @@ double FixRBCIB::compute_vector(int n)
 void FixRBCIB::write_restart(FILE *fp)
 {
   if (comm->me != 0) return;
-  const double state[2] = {last_dt, last_between};
+  double state[NSTATE] = {last_dt, last_between, next_dt};
+  std::copy(past_dt.begin(), past_dt.end(), state + 3);
   const int size = sizeof(state);
   fwrite(&size, sizeof(int), 1, fp);
-  fwrite(state, sizeof(double), 2, fp);
+  fwrite(state, sizeof(double), NSTATE, fp);
 }
 
 void FixRBCIB::restart(char *buffer)
@@ -467,47 +680,8 @@ void FixRBCIB::restart(char *buffer)
   const auto state = reinterpret_cast<const double *>(buffer);
   last_dt = state[0];
   last_between = state[1];
-}
-
-/* ----------------------------------------------------------------------
-   LAMMPS would delete what is beyond a plate when atoms migrate
-------------------------------------------------------------------------- */
-
-void FixRBCIB::check_positions() const
-{
-  if (domain->zperiodic) return;
-  double **const x = atom->x;
-  for (int i : members)
-    if (x[i][2] < domain->boxlo[2] || x[i][2] >= domain->boxhi[2]) stop(i, "went through a plate");
-}
-
-/* ----------------------------------------------------------------------
-   no vertex may cross more than a cell of the fluid in a step
-------------------------------------------------------------------------- */
-
-void FixRBCIB::check_velocities() const
-{
-  const double fastest = fluid_fix->smallest_spacing() / update->dt;
-  double **const v = atom->v;
-  for (int i : members) {
-    const double speed2 = v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2];
-    if (speed2 <= fastest * fastest) continue;
-    if (std::isfinite(speed2))
-      stop(i, fmt::format("would cross {:.3g} fluid cells in a step (CFL above 1; timestep too "
-                          "large or unstable)",
-                          std::sqrt(speed2) / fastest));
-    stop(i, "has a velocity that is not a number");
-  }
-}
-
-void FixRBCIB::stop(int i, const std::string &what) const
-{
-  double **const x = atom->x;
-  error->one(FLERR,
-             "Fix rbc/ib {}: vertex with atom ID {} {} at step {}: molecule ID {} at ({:.6g}, "
-             "{:.6g}, {:.6g})",
-             id, atom->tag[i], what, update->ntimestep, atom->molecule_flag ? atom->molecule[i] : 0,
-             x[i][0], x[i][1], x[i][2]);
+  next_dt = state[2];
+  std::copy_n(state + 3, past_dt.size(), past_dt.begin());
 }
 
 /* ----------------------------------------------------------------------
@@ -520,10 +694,10 @@ void FixRBCIB::post_run()
   if (solves == 0) return;
   double membrane = 0;
   for (const FixRBCMembrane *fix : membranes) membrane += fix->stopwatch.seconds();
-  double seconds[5] = {membrane, spreading.seconds(), solving.seconds(), interpolating.seconds(),
-                       exchanging.seconds()};
+  double seconds[5] = {membrane, motion->spreading.seconds(), motion->solving.seconds(),
+                       motion->interpolating.seconds(), motion->exchanging.seconds()};
   MPI_Allreduce(MPI_IN_PLACE, seconds, 5, MPI_DOUBLE, MPI_SUM, world);
-  bigint mine = static_cast<bigint>(members.size()), vertices;
+  bigint mine = static_cast<bigint>(motion->members().size()), vertices;
   MPI_Allreduce(&mine, &vertices, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   const bigint steps = update->ntimestep - first_step;
   const std::string costs = fluid_fix->costs(steps);
@@ -554,8 +728,9 @@ void FixRBCIB::post_run()
 
 double FixRBCIB::memory_usage()
 {
-  std::size_t numbers = start_of_step.capacity() + direct.numbers();
-  for (const auto *vector : {&applied, &resistance, &target, &inertial})
+  std::size_t numbers = direct.numbers() + motion->numbers() + chebyshev.numbers() + path.numbers();
+  for (const auto *vector :
+       {&start, &velocity, &middle, &position, &scratch, &applied, &resistance, &target, &inertial})
     numbers += vector->capacity();
-  return static_cast<double>(members.capacity() * sizeof(int) + numbers * sizeof(double));
+  return static_cast<double>(motion->members().capacity() * sizeof(int) + numbers * sizeof(double));
 }

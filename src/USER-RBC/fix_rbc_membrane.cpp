@@ -4,6 +4,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "membrane_viscosity.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "rbc_cell_template.h"
@@ -38,6 +39,10 @@ FixRBCMembrane::FixRBCMembrane(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, nar
       std::make_unique<LocalCells>(lmp, *surface, groupbit, fmt::format("Fix rbc/membrane {}", id));
   x.resize(surface->size());
   f.resize(surface->size());
+  if (is_viscous()) {
+    v.resize(surface->size());
+    comm_forward = 3;
+  }
 }
 
 FixRBCMembrane::~FixRBCMembrane()
@@ -116,8 +121,13 @@ rbc::MembraneParameters FixRBCMembrane::parse(int narg, char **arg)
         parameters.volume = not_negative(iarg + 1, keyword);
       }
       iarg += 2;
+    } else if (keyword == "viscosity") {
+      need(1, keyword);
+      viscosity = not_negative(iarg + 1, keyword);
+      iarg += 2;
     } else
-      error->all(FLERR, iarg, "Unknown fix rbc/membrane keyword {}; allowed: bending, area, volume",
+      error->all(FLERR, iarg,
+                 "Unknown fix rbc/membrane keyword {}; allowed: bending, area, volume, viscosity",
                  keyword);
   }
   return parameters;
@@ -199,6 +209,7 @@ void FixRBCMembrane::post_force(int vflag)
   const bool measure = model->needs_size() || neighbor->ago == 0;
   if (measure) measure_cells();
   add_forces();
+  if (is_viscous()) add_viscous_forces(true);
   stopwatch.stop();
 }
 
@@ -226,8 +237,6 @@ void FixRBCMembrane::measure_cells()
 
 void FixRBCMembrane::add_forces()
 {
-  double **const force = atom->f;
-  const int size = surface->size();
   const auto &local = cells->cells();
   energy = {};
   energy_step = -1;
@@ -241,19 +250,57 @@ void FixRBCMembrane::add_forces()
     energy.bending += share.bending;
     energy.area += share.area;
     energy.volume += share.volume;
-    for (int v = 0; v < size; ++v) {
-      if (!cell.elements->owned[v]) continue;
-      double *const at = force[cell.atom[v]];
-      for (int d = 0; d < 3; ++d) at[d] += f[v][d];
-    }
-    if (!evflag) continue;
-    for (int v = 0; v < size; ++v) {
-      if (!cell.elements->owned[v]) continue;
-      double virial_of_vertex[6] = {x[v][0] * f[v][0], x[v][1] * f[v][1], x[v][2] * f[v][2],
-                                    x[v][0] * f[v][1], x[v][0] * f[v][2], x[v][1] * f[v][2]};
-      v_tally(cell.atom[v], virial_of_vertex);
-    }
+    add_to_atoms(cell, true);
   }
+}
+
+void FixRBCMembrane::add_to_atoms(const LocalCells::Cell &cell, bool with_virial)
+{
+  double **const force = atom->f;
+  const int size = surface->size();
+  for (int i = 0; i < size; ++i) {
+    if (!cell.elements->owned[i]) continue;
+    double *const at = force[cell.atom[i]];
+    for (int d = 0; d < 3; ++d) at[d] += f[i][d];
+  }
+  if (!with_virial || !evflag) return;
+  for (int i = 0; i < size; ++i) {
+    if (!cell.elements->owned[i]) continue;
+    double virial_of_vertex[6] = {x[i][0] * f[i][0], x[i][1] * f[i][1], x[i][2] * f[i][2],
+                                  x[i][0] * f[i][1], x[i][0] * f[i][2], x[i][1] * f[i][2]};
+    v_tally(cell.atom[i], virial_of_vertex);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCMembrane::add_viscous_forces(bool with_virial)
+{
+  if (comm->nprocs > 1) comm->forward_comm(this);
+  power = 0;
+  for (const LocalCells::Cell &cell : cells->cells()) {
+    cells->gather(cell, x);
+    for (int i = 0; i < surface->size(); ++i)
+      if (cell.atom[i] >= 0) v[i] = Vec3(atom->v[cell.atom[i]]);
+    power += rbc::viscous_forces(*surface, viscosity, *cell.elements, x, v, f);
+    add_to_atoms(cell, with_virial);
+  }
+}
+
+int FixRBCMembrane::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/,
+                                      int * /*pbc*/)
+{
+  int m = 0;
+  for (int i = 0; i < n; ++i)
+    for (int d = 0; d < 3; ++d) buf[m++] = atom->v[list[i]][d];
+  return m;
+}
+
+void FixRBCMembrane::unpack_forward_comm(int n, int first, double *buf)
+{
+  int m = 0;
+  for (int i = first; i < first + n; ++i)
+    for (int d = 0; d < 3; ++d) atom->v[i][d] = buf[m++];
 }
 
 /* ----------------------------------------------------------------------

@@ -28,6 +28,13 @@ class FixRBCMembrane : public Fix {
   double compute_scalar() override;
   double compute_vector(int) override;
   double memory_usage() override;
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+
+  // used by fix rbc/ib: adds the viscous forces at the atoms' velocities
+
+  bool is_viscous() const { return viscosity > 0; }
+  void add_viscous_forces(bool with_virial);
 
   // used by fix rbc/ib: takes from the velocities what would change the cells' volumes
 
@@ -47,19 +54,22 @@ class FixRBCMembrane : public Fix {
   std::unique_ptr<rbc::MembraneModel> model;
   std::unique_ptr<LocalCells> cells;
   bool volume_kept = true;
+  double viscosity = 0;
   double ghost_cutoff = 0;    // that this fix asked for
 
-  std::vector<rbc::Vec3> x, f;
+  std::vector<rbc::Vec3> x, f, v;
   std::vector<rbc::Vec3> volume_gradient;    // of the vertices of all cells here, see keep_volume()
   std::vector<double> sizes;                 // area and volume of each cell here
   std::vector<double> volume_rates, sums;
   rbc::MembraneEnergy energy, energy_all;
+  double power = 0;    // dissipated by the membranes here
   bigint energy_step = -1;
 
   rbc::MembraneParameters parse(int, char **);
   double reach() const;
   void measure_cells();
   void add_forces();
+  void add_to_atoms(const LocalCells::Cell &, bool with_virial);
   [[noreturn]] void stop(const LocalCells::Cell &, const std::string &);
   const rbc::MembraneEnergy &total_energy();
 };

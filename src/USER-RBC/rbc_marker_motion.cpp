@@ -1,0 +1,291 @@
+#include "rbc_marker_motion.h"
+
+#include "angle.h"
+#include "atom.h"
+#include "bond.h"
+#include "comm.h"
+#include "dihedral.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_rbc_fluid.h"
+#include "fix_rbc_membrane.h"
+#include "force.h"
+#include "improper.h"
+#include "kspace.h"
+#include "modify.h"
+#include "pair.h"
+#include "update.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using rbc::Numbers;
+
+/* ---------------------------------------------------------------------- */
+
+MarkerMotion::MarkerMotion(LAMMPS *lmp, std::string style, int groupbit, fluid::KernelKind kernel) :
+    Pointers(lmp), style_(std::move(style)), groupbit_(groupbit), kernel_(kernel)
+{
+}
+
+void MarkerMotion::connect(FixRBCFluid *fluid, const std::vector<FixRBCMembrane *> &membranes)
+{
+  fluid_ = fluid;
+  keepers_.clear();
+  viscous_.clear();
+  for (FixRBCMembrane *membrane : membranes) {
+    if (membrane->keeps_volume()) keepers_.push_back(membrane);
+    if (membrane->is_viscous()) viscous_.push_back(membrane);
+  }
+}
+
+void MarkerMotion::find_markers()
+{
+  members_.clear();
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit_) members_.push_back(i);
+}
+
+fluid::Markers MarkerMotion::markers() const
+{
+  return {static_cast<int>(members_.size()), members_.data()};
+}
+
+void MarkerMotion::reset_stopwatches()
+{
+  for (rbc::Stopwatch *watch : {&spreading, &solving, &interpolating, &exchanging}) watch->reset();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void MarkerMotion::load(double **array, Numbers &numbers, int column) const
+{
+  numbers.resize(3 * members_.size());
+  for (std::size_t n = 0; n < members_.size(); ++n)
+    for (int d = 0; d < 3; ++d) numbers[3 * n + d] = array[members_[n]][column + d];
+}
+
+void MarkerMotion::store(const Numbers &numbers, double **array, int column) const
+{
+  for (std::size_t n = 0; n < members_.size(); ++n)
+    for (int d = 0; d < 3; ++d) array[members_[n]][column + d] = numbers[3 * n + d];
+}
+
+void MarkerMotion::sum(double *values, int count) const
+{
+  MPI_Allreduce(MPI_IN_PLACE, values, count, MPI_DOUBLE, MPI_SUM, world);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void MarkerMotion::spread_forces()
+{
+  fluid::Flow &flow = fluid_->flow();
+  spreading.start();
+  flow.clear_force();
+  const int outside = flow.spread(kernel_, markers(), rows(atom->x), rows(atom->f), force->ftm2v);
+  if (outside >= 0) stop_outside(outside);
+  spreading.stop();
+
+  exchanging.start();
+  flow.gather_force();
+  exchanging.stop();
+}
+
+void MarkerMotion::solve()
+{
+  solving.start();
+  fluid_->flow().solve();
+  fluid_->flow_changed();
+  solving.stop();
+}
+
+/* ----------------------------------------------------------------------
+   atoms take the velocity of the fluid
+------------------------------------------------------------------------- */
+
+void MarkerMotion::interpolate(Stage stage)
+{
+  fluid::Flow &flow = fluid_->flow();
+  exchanging.start();
+  flow.share_velocity();
+  exchanging.stop();
+
+  interpolating.start();
+  flow.interpolate(kernel_, markers(), rows(atom->x), rows(atom->v));
+  interpolating.stop();
+
+  keep_volume(stage);
+}
+
+void MarkerMotion::keep_volume(Stage stage)
+{
+  for (FixRBCMembrane *membrane : keepers_)
+    membrane->keep_volume(update->dt, stage == Stage::START);
+}
+
+void MarkerMotion::velocities_of_forces(Stage stage)
+{
+  spread_forces();
+  solve();
+  interpolate(stage);
+}
+
+/* ----------------------------------------------------------------------
+   with viscous membranes the forces were computed with the velocities v that atoms had; those sought obey
+     (1 + M Z) V = M (F + Z v) + U,   Z the resistance of the membranes, M the mobility of the markers
+------------------------------------------------------------------------- */
+
+void MarkerMotion::update_velocities(Stage stage)
+{
+  if (viscous_.empty()) {
+    velocities_of_forces(stage);
+    check_velocities();
+    return;
+  }
+
+  load(atom->v, guess_);
+  load(atom->f, forces_);
+  velocities_of_forces(stage);
+  load(atom->v, residual_);
+  double fastest = 0;
+  for (std::size_t n = 0; n < members_.size(); ++n) {
+    double square = 0;
+    for (int d = 0; d < 3; ++d) square += residual_[3 * n + d] * residual_[3 * n + d];
+    fastest = std::max(fastest, square);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, world);
+  double count = members_.size();
+  sum(&count, 1);
+  for (std::size_t i = 0; i < guess_.size(); ++i) residual_[i] -= guess_[i];
+
+  correction_.assign(guess_.size(), 0.0);
+  gmres.solve(
+      [this](const Numbers &p, Numbers &result) {
+        resistance(p, result);
+        for (std::size_t i = 0; i < p.size(); ++i) result[i] += p[i];
+      },
+      *this, residual_, tolerance * std::sqrt(fastest * count), correction_);
+
+  store(forces_, atom->f);
+  store(correction_, atom->v);
+  for (FixRBCMembrane *membrane : viscous_) membrane->add_viscous_forces(true);
+  velocities_of_forces(stage);
+  check_velocities();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void MarkerMotion::velocity(const Numbers &x, double fraction, Numbers &v)
+{
+  store(x, atom->x);
+  store(v, atom->v);
+  check_positions();
+  fluid_->drive_at(fraction);
+  recompute_forces();
+  update_velocities(Stage::MIDDLE);
+  load(atom->v, v);
+}
+
+/* ----------------------------------------------------------------------
+   M Z p: minus the velocities that the membranes' viscous forces cause if the atoms move with p
+------------------------------------------------------------------------- */
+
+void MarkerMotion::resistance(const Numbers &p, Numbers &v)
+{
+  v.assign(p.size(), 0.0);
+  store(p, atom->v);
+  store(v, atom->f);
+  for (FixRBCMembrane *membrane : viscous_) membrane->add_viscous_forces(false);
+
+  const std::size_t all = 3 * static_cast<std::size_t>(atom->nlocal);
+  applied_.resize(all);
+  response_.resize(all);
+  for (int i : members_)
+    for (int d = 0; d < 3; ++d) applied_[3 * std::size_t(i) + d] = -atom->f[i][d] * force->ftm2v;
+  solving.start();
+  fluid_->flow().respond(kernel_, markers(), rows(atom->x), applied_.data(), response_.data());
+  solving.stop();
+  for (std::size_t n = 0; n < members_.size(); ++n)
+    for (int d = 0; d < 3; ++d) v[3 * n + d] = response_[3 * std::size_t(members_[n]) + d];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void MarkerMotion::recompute_forces()
+{
+  exchanging.start();
+  comm->forward_comm();
+  exchanging.stop();
+
+  const std::size_t count = atom->nlocal + (force->newton ? atom->nghost : 0);
+  if (count) memset(atom->f[0], 0, 3 * count * sizeof(double));
+
+  constexpr int eflag = 0, vflag = 0;
+  if (modify->n_pre_force) modify->pre_force(vflag);
+  if (force->pair && force->pair->compute_flag) force->pair->compute(eflag, vflag);
+  if (atom->molecular != Atom::ATOMIC) {
+    if (force->bond) force->bond->compute(eflag, vflag);
+    if (force->angle) force->angle->compute(eflag, vflag);
+    if (force->dihedral) force->dihedral->compute(eflag, vflag);
+    if (force->improper) force->improper->compute(eflag, vflag);
+  }
+  if (force->kspace && force->kspace->compute_flag) force->kspace->compute(eflag, vflag);
+  if (modify->n_pre_reverse) modify->pre_reverse(eflag, vflag);
+  if (force->newton) comm->reverse_comm();
+  if (modify->n_post_force_any) modify->post_force(vflag);
+}
+
+/* ----------------------------------------------------------------------
+   LAMMPS would delete what is beyond a plate when atoms migrate
+------------------------------------------------------------------------- */
+
+void MarkerMotion::check_positions() const
+{
+  if (domain->zperiodic) return;
+  double **const x = atom->x;
+  for (int i : members_)
+    if (x[i][2] < domain->boxlo[2] || x[i][2] >= domain->boxhi[2]) stop(i, "went through a plate");
+}
+
+/* ---------------------------------------------------------------------- */
+
+void MarkerMotion::check_velocities() const
+{
+  const double fastest = courant * fluid_->smallest_spacing() / update->dt;
+  double **const v = atom->v;
+  for (int i : members_) {
+    const double speed2 = v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2];
+    if (speed2 <= fastest * fastest) continue;
+    if (std::isfinite(speed2))
+      stop(i, fmt::format("would cross {:.3g} fluid cells in a step (CFL above {}; timestep too "
+                          "large or unstable)",
+                          courant * std::sqrt(speed2) / fastest, courant));
+    stop(i, "has a velocity that is not a number");
+  }
+}
+
+void MarkerMotion::stop_outside(int i) const
+{
+  stop(i, "left the fluid its MPI task holds (reneighboring too rare, see neigh_modify)");
+}
+
+void MarkerMotion::stop(int i, const std::string &what) const
+{
+  double **const x = atom->x;
+  error->one(FLERR,
+             "{}: vertex with atom ID {} {} at step {}: molecule ID {} at ({:.6g}, {:.6g}, {:.6g})",
+             style_, atom->tag[i], what, update->ntimestep,
+             atom->molecule_flag ? atom->molecule[i] : 0, x[i][0], x[i][1], x[i][2]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::size_t MarkerMotion::numbers() const
+{
+  std::size_t sum = gmres.numbers();
+  for (const Numbers *vector : {&guess_, &forces_, &residual_, &correction_, &applied_, &response_})
+    sum += vector->capacity();
+  return sum;
+}

@@ -1,0 +1,26 @@
+#include "spectral_radius.h"
+
+#include <cmath>
+
+namespace rbc {
+
+double SpectralRadius::estimate(Motion &motion, const Numbers &x, const Numbers &velocity,
+                                double size, Numbers &mode)
+{
+  const std::size_t n = x.size();
+  displaced_.resize(n);
+  changed_ = velocity;
+  double radius = 0;
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
+    const double scale = size / std::sqrt(dot(motion, mode, mode));
+    for (std::size_t i = 0; i < n; ++i) displaced_[i] = x[i] + scale * mode[i];
+    motion.velocity(displaced_, 0, changed_);
+    for (std::size_t i = 0; i < n; ++i) mode[i] = changed_[i] - velocity[i];
+    const double before = radius;
+    radius = std::sqrt(dot(motion, mode, mode)) / size;
+    if (!(radius > 0) || std::abs(radius - before) <= tolerance * radius) break;
+  }
+  return radius;
+}
+
+}    // namespace rbc

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "motion.h"
+
+namespace rbc {
+
+/// Largest relaxation rate of a motion, by the power method on differences of its velocity (Sommeijer, Shampine and
+/// Verwer, J. Comput. Appl. Math. 88 (1998) 315).
+class SpectralRadius {
+ public:
+  double tolerance = 0.02;    ///< change of the estimate at which iterations end
+  int max_iterations = 100;
+
+  /// `size` is how far points are displaced (root of the sum of squares). `mode` holds a first guess of the fastest
+  /// mode, not zero, and becomes it; `velocity` is that at x. One evaluation per iteration.
+  double estimate(Motion &motion, const Numbers &x, const Numbers &velocity, double size,
+                  Numbers &mode);
+
+ private:
+  Numbers displaced_, changed_;
+};
+
+}    // namespace rbc
