@@ -9,6 +9,7 @@ FixStyle(rbc/membrane,FixRBCMembrane);
 
 #include "fix.h"
 #include "rbc_local_cells.h"
+#include "rbc_swelling.h"
 #include "stopwatch.h"
 
 #include <memory>
@@ -28,6 +29,8 @@ class FixRBCMembrane : public Fix {
   double compute_scalar() override;
   double compute_vector(int) override;
   double memory_usage() override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
 
@@ -39,7 +42,7 @@ class FixRBCMembrane : public Fix {
   // used by fix rbc/ib: takes from the velocities what would change the cells' volumes
 
   bool keeps_volume() const { return volume_kept; }
-  void keep_volume(double dt, bool new_step);
+  void keep_volume(double dt, bool new_step, bool mid_step);
 
   // used by computes and output of whole cells
 
@@ -55,6 +58,7 @@ class FixRBCMembrane : public Fix {
   std::unique_ptr<LocalCells> cells;
   bool volume_kept = true;
   double viscosity = 0;
+  Swelling swelling;
   double ghost_cutoff = 0;    // that this fix asked for
 
   std::vector<rbc::Vec3> x, f, v;
@@ -67,6 +71,7 @@ class FixRBCMembrane : public Fix {
 
   rbc::MembraneParameters parse(int, char **);
   double reach() const;
+  void update_swelling(bool new_run);
   void measure_cells();
   void add_forces();
   void add_to_atoms(const LocalCells::Cell &, bool with_virial);
