@@ -17,6 +17,12 @@ WRITERS = {".stl": vtkSTLWriter, ".ply": vtkPLYWriter, ".vtp": vtkXMLPolyDataWri
 FORMATS = (".stl", ".ply", ".off", ".vtp")
 
 
+def _format(path):
+    if path.suffix.lower() not in FORMATS:
+        raise ValueError(f"unknown format {path.suffix or '(no suffix)'}; allowed: {', '.join(FORMATS)}")
+    return path.suffix.lower()
+
+
 def _polydata(points, polygons):
     coordinates = np.array(points, dtype=float).reshape(-1, 3)
     nodes, cells, surface = vtkPoints(), vtkCellArray(), vtkPolyData()
@@ -50,6 +56,8 @@ def _read_off(path):
     if not any(rows) or next(filter(None, rows))[0] != "OFF":
         raise ValueError("does not begin with OFF (COFF, NOFF, binary OFF and others are not read)")
     rows = [row for row in ([word for word in row if word != "OFF"] for row in rows) if row]
+    if not rows or len(rows[0]) < 2:
+        raise ValueError("has no numbers of vertices and faces")
     vertices, faces = (int(word) for word in rows[0][:2])
     rows = rows[1:1 + vertices + faces]
     if len(rows) < vertices + faces:
@@ -66,9 +74,7 @@ def read_surface(path):
     Raises ValueError, saying why, if the file holds no triangles or some of them are no triangles.
     """
     path = Path(path)
-    kind = path.suffix.lower()
-    if kind not in FORMATS:
-        raise ValueError(f"unknown format {path.suffix or '(no suffix)'}; allowed: {', '.join(FORMATS)}")
+    kind = _format(path)
     if not path.is_file():
         raise ValueError("no such file")
     if kind == ".off":
@@ -97,9 +103,7 @@ def read_surface(path):
 def write_surface(path, points, triangles):
     """Write triangles in the format that the suffix names; STL and PLY hold single precision."""
     path = Path(path)
-    kind = path.suffix.lower()
-    if kind not in FORMATS:
-        raise ValueError(f"unknown format {path.suffix or '(no suffix)'}; allowed: {', '.join(FORMATS)}")
+    kind = _format(path)
     if kind == ".off":
         lines = ["OFF", f"{len(points)} {len(triangles)} {len(triangles) * 3 // 2}"]
         lines += ["{!r} {!r} {!r}".format(*map(float, point)) for point in points]

@@ -29,4 +29,7 @@ def read_molecule(path):
     if not {"Coords", "Angles"} <= sections.keys():
         raise ValueError("not a molecule file with Coords and Angles")
     coords, angles = (np.array(sorted(sections[name])) for name in ("Coords", "Angles"))
-    return coords[:, 1:4], angles[:, 2:5].astype(int) - 1
+    points, triangles = coords[:, 1:4], angles[:, 2:5].astype(int) - 1
+    if triangles.min() < 0 or triangles.max() >= len(points):
+        raise ValueError("an angle names an atom that does not exist")
+    return points, triangles

@@ -13,10 +13,9 @@ using SheetLaw = std::variant<MooneyRivlin, Skalak>;
 /// Elastic constants of a membrane. A modulus of zero switches its energy off.
 struct MembraneParameters {
   SheetLaw law = MooneyRivlin::neo_hookean(1);
-  double bending = 0;    ///< Helfrich modulus kappa, energy
-  bool reference_curvature =
-      true;    ///< spontaneous curvature is that of the stress-free shape, or else
-  double spontaneous_curvature = 0;          ///< c0, the sum of both principal curvatures, 1/length
+  double bending = 0;                  ///< Helfrich modulus kappa, energy
+  bool reference_curvature = true;     ///< spontaneous curvature is that of the template, or else
+  double spontaneous_curvature = 0;    ///< c0, the sum of both principal curvatures, 1/length
   double global_area = 0, local_area = 0;    ///< force per length
   double volume = 0;                         ///< force per area
 };

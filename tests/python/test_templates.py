@@ -213,8 +213,8 @@ class Spheroid(unittest.TestCase):
                         area_and_volume(points, triangles)[0]**3)
                     self.assertLess(abs(math.sqrt(found) - reduced), 0.02)
                     # the same azimuth and side, and nearly the same area of each triangle
-                    np.testing.assert_allclose(np.arctan2(points[:, 1], points[:, 0]), np.arctan2(cell[:, 1], cell[:, 0]),
-                                               atol=1e-12)
+                    azimuths = [np.arctan2(x[:, 1], x[:, 0]) for x in (points, cell)]
+                    np.testing.assert_allclose(*azimuths, atol=1e-12)
                     self.assertTrue((np.sign(points[:, 2]) == np.sign(cell[:, 2])).all())
                     ratio = [np.linalg.norm(np.cross(x[same[:, 1]] - x[same[:, 0]], x[same[:, 2]] - x[same[:, 0]]),
                                             axis=1) for x in (points, cell)]
@@ -274,7 +274,8 @@ class Shipped(unittest.TestCase):
     def test_readme_makes_other_cells(self):
         readme = (POTENTIALS / "README.md").read_text(encoding="utf-8")
         commands = re.findall(r"^potentials/make_template\.py (.*)$", readme, re.MULTILINE)
-        rows = re.findall(r"^\| ([^|]*) \| ([\d.]+) x ([\d.]+) x ([\d.]+) \| ([\d.]+) \| ([\d.]+) \|", readme, re.MULTILINE)
+        rows = re.findall(r"^\| ([^|]*) \| ([\d.]+) x ([\d.]+) x ([\d.]+) \| ([\d.]+) \| ([\d.]+) \|", readme,
+                          re.MULTILINE)
         with tempfile.TemporaryDirectory() as folder:
             made = []
             for command in commands:

@@ -165,7 +165,7 @@ MEMBRANE_ERRORS = {
     "volume negative": (dict(membrane=MEMBRANE + "neo-hookean 1 volume -1"), ["volume", "-1", ">= 0"]),
     "volume neither": (dict(membrane=MEMBRANE + "neo-hookean 1 volume maybe"), ["volume", "maybe", "yes, no"]),
     "unknown keyword": (dict(membrane=MEMBRANE + "neo-hookean 1 bend 1"), ["rbc/membrane", "keyword", "bend",
-                                                                          "bending, area, volume", "swell, stress-free"]),
+                                                                          "bending, area, volume, swell"]),
     "swell missing": (dict(membrane=MEMBRANE + "neo-hookean 1 swell"), ["rbc/membrane swell", "missing"]),
     "swell negative": (dict(membrane=MEMBRANE + "neo-hookean 1 swell -1"), ["swell", "-1", ">"]),
     "swell zero": (dict(membrane=MEMBRANE + "neo-hookean 1 swell 0"), ["swell", "0", "> 0"]),
@@ -183,10 +183,12 @@ MEMBRANE_ERRORS = {
     "stress-free unknown": (dict(membrane=MEMBRANE + "neo-hookean 1 stress-free ball"),
                             ["Molecule template", "ball", "rbc/membrane stress-free", "does not exist"]),
     "stress-free of another size": (
-        dict(before=f"molecule ball {POTENTIALS}/capsule_362.mol", membrane=MEMBRANE + "neo-hookean 1 stress-free ball"),
+        dict(before=f"molecule ball {POTENTIALS}/capsule_362.mol",
+             membrane=MEMBRANE + "neo-hookean 1 stress-free ball"),
         ["Molecule template ball", "rbc/membrane stress-free", "triangles of rbc", "362 vertices, not 162"]),
     "stress-free with other triangles": (
-        dict(before=f"molecule ball {POTENTIALS}/capsule_162.mol", membrane=MEMBRANE + "neo-hookean 1 stress-free ball"),
+        dict(before=f"molecule ball {POTENTIALS}/capsule_162.mol",
+             membrane=MEMBRANE + "neo-hookean 1 stress-free ball"),
         ["Molecule template ball", "rbc/membrane stress-free", "triangles of rbc", "its triangle", "in place of"]),
     "triclinic": (dict(last="change_box all triclinic", fluid=None, ib=None, thermo=None),
                   ["rbc/membrane", "orthogonal"]),

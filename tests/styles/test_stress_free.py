@@ -51,7 +51,8 @@ class StressFree(unittest.TestCase):
             for ranks in (1, 2):
                 with self.subTest(reduced_volume, ranks=ranks):
                     thermo = run(scene(
-                        before=f"molecule round {path}", membrane=f"fix mem all rbc/membrane rbc {SHEET} stress-free round",
+                        before=f"molecule round {path}",
+                        membrane=f"fix mem all rbc/membrane rbc {SHEET} stress-free round",
                         thermo="thermo_style custom step f_mem[1] f_mem[2] f_mem[3]"), ranks).thermo
                     np.testing.assert_allclose(thermo["f_mem[1]"], sheet, rtol=1e-10)
                     np.testing.assert_allclose(thermo["f_mem[3]"], area, rtol=1e-9)
