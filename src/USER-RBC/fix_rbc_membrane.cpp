@@ -82,7 +82,7 @@ rbc::MembraneParameters FixRBCMembrane::parse(int narg, char **arg)
     iarg += 4;
   } else if (law == "neo-hookean") {
     need(1, law);
-    parameters.law = rbc::MooneyRivlin::neo_hookean(positive(5, law + " Gs"));
+    parameters.law = rbc::NeoHookean(positive(5, law + " Gs"));
     iarg += 2;
   } else if (law == "skalak") {
     need(2, law);
@@ -98,13 +98,25 @@ rbc::MembraneParameters FixRBCMembrane::parse(int narg, char **arg)
       need(1, keyword);
       parameters.bending = not_negative(iarg + 1, keyword);
       iarg += 2;
-      if (iarg < narg && strcmp(arg[iarg], "reference") == 0) {
-        parameters.reference_curvature = true;
-        ++iarg;
-      } else if (iarg < narg && utils::is_double(arg[iarg])) {
-        parameters.reference_curvature = false;
-        parameters.spontaneous_curvature = utils::numeric(FLERR, arg[iarg], false, lmp);
-        ++iarg;
+      bool curved = false, formed = false;
+      for (; iarg < narg; ++iarg) {
+        const std::string value = arg[iarg];
+        const bool is_form = value == "helfrich" || value == "dihedral";
+        if (!is_form && value != "reference" && !utils::is_double(value)) break;
+        if (is_form ? formed : curved)
+          error->all(
+              FLERR, iarg,
+              "Fix rbc/membrane bending value {} is one too many: allowed are one of reference "
+              "or c0, and one of helfrich or dihedral",
+              value);
+        (is_form ? formed : curved) = true;
+        if (is_form)
+          parameters.bending_form =
+              value == "dihedral" ? rbc::BendingForm::dihedral : rbc::BendingForm::helfrich;
+        else if (value != "reference") {
+          parameters.reference_curvature = false;
+          parameters.spontaneous_curvature = utils::numeric(FLERR, arg[iarg], false, lmp);
+        }
       }
     } else if (keyword == "area") {
       need(2, keyword);
@@ -223,9 +235,19 @@ void FixRBCMembrane::post_force(int vflag)
   stopwatch.start();
   v_init(vflag);
   update_swelling(false);
-  const bool measure = model->needs_size() || neighbor->ago == 0;
-  if (measure) measure_cells();
-  add_forces();
+  const bool measuring = model->needs_size() || neighbor->ago == 0;
+  if (measuring) measure_shared_cells();
+  energy = {};
+  energy_step = -1;
+  const auto &local = cells->cells();
+  for (std::size_t c = 0; c < local.size(); ++c) {
+    take(local[c]);
+    if (measuring) {
+      if (local[c].shared < 0) store_size(c);
+      check(local[c], sizes[2 * c + 1]);
+    }
+    add_forces(local[c], {sizes[2 * c], sizes[2 * c + 1]});
+  }
   if (is_viscous()) add_viscous_forces(true);
   stopwatch.stop();
 }
@@ -243,44 +265,61 @@ void FixRBCMembrane::update_swelling(bool new_run)
 }
 
 /* ----------------------------------------------------------------------
-   area and volume of all cells here
+   takes a cell in hand as it is now
 ------------------------------------------------------------------------- */
 
-void FixRBCMembrane::measure_cells()
+void FixRBCMembrane::take(const LocalCells::Cell &cell)
+{
+  cells->gather(cell, x);
+  model->set_cell(*cell.elements, x);
+}
+
+/* ----------------------------------------------------------------------
+   area and volume of the cell in hand, cell c here, or this rank's share of them
+------------------------------------------------------------------------- */
+
+void FixRBCMembrane::store_size(std::size_t c)
+{
+  const rbc::CellSize share = model->size();
+  sizes[2 * c] = share.area;
+  sizes[2 * c + 1] = share.volume;
+}
+
+/* ----------------------------------------------------------------------
+   area and volume of the cells that several ranks share
+------------------------------------------------------------------------- */
+
+void FixRBCMembrane::measure_shared_cells()
 {
   const auto &local = cells->cells();
   for (std::size_t c = 0; c < local.size(); ++c) {
-    cells->gather(local[c], x);
-    const rbc::CellSize share = model->measure(*local[c].elements, x);
-    sizes[2 * c] = share.area;
-    sizes[2 * c + 1] = share.volume;
-    const int inverted = model->find_inverted(*local[c].elements, x);
-    if (inverted >= 0) stop(local[c], fmt::format("triangle {} is inverted", inverted + 1));
+    if (local[c].shared < 0) continue;
+    take(local[c]);
+    store_size(c);
   }
   cells->sum_shared(sizes, 2);
-  for (std::size_t c = 0; c < local.size(); ++c)
-    if (sizes[2 * c + 1] <= 0) stop(local[c], "the cell turned inside out");
 }
 
 /* ---------------------------------------------------------------------- */
 
-void FixRBCMembrane::add_forces()
+void FixRBCMembrane::check(const LocalCells::Cell &cell, double volume)
 {
-  const auto &local = cells->cells();
-  energy = {};
-  energy_step = -1;
-  for (std::size_t c = 0; c < local.size(); ++c) {
-    const LocalCells::Cell &cell = local[c];
-    cells->gather(cell, x);
-    const rbc::MembraneEnergy share =
-        model->forces(*cell.elements, x, {sizes[2 * c], sizes[2 * c + 1]}, f);
-    if (!std::isfinite(share.total())) stop(cell, "the energy of the membrane is not a number");
-    energy.sheet += share.sheet;
-    energy.bending += share.bending;
-    energy.area += share.area;
-    energy.volume += share.volume;
-    add_to_atoms(cell, true);
-  }
+  const int inverted = model->find_inverted();
+  if (inverted >= 0) stop(cell, fmt::format("triangle {} is inverted", inverted + 1));
+  if (volume <= 0) stop(cell, "the cell turned inside out");
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCMembrane::add_forces(const LocalCells::Cell &cell, const rbc::CellSize &size)
+{
+  const rbc::MembraneEnergy share = model->forces(size, f);
+  if (!std::isfinite(share.total())) stop(cell, "the energy of the membrane is not a number");
+  energy.sheet += share.sheet;
+  energy.bending += share.bending;
+  energy.area += share.area;
+  energy.volume += share.volume;
+  add_to_atoms(cell, true);
 }
 
 void FixRBCMembrane::add_to_atoms(const LocalCells::Cell &cell, bool with_virial)
@@ -353,15 +392,15 @@ void FixRBCMembrane::keep_volume(double dt, bool new_step, bool mid_step)
   sums.assign(3 * local.size(), 0.0);    // flux, squared gradient, volume
   for (std::size_t c = 0; c < local.size(); ++c) {
     const LocalCells::Cell &cell = local[c];
-    cells->gather(cell, x);
+    take(cell);
     Vec3 *const gradient = &volume_gradient[c * size];
-    const rbc::CellSize share = model->measure(*cell.elements, x, gradient);
+    model->volume_gradient(gradient);
     for (int i = 0; i < size; ++i) {
       if (!cell.elements->owned[i]) continue;
       sums[3 * c] += gradient[i].dot(Vec3(v[cell.atom[i]]));
       sums[3 * c + 1] += gradient[i].squaredNorm();
     }
-    sums[3 * c + 2] = share.volume;
+    sums[3 * c + 2] = model->size().volume;
   }
   cells->sum_shared(sums, 3);
 

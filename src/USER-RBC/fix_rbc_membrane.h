@@ -72,9 +72,12 @@ class FixRBCMembrane : public Fix {
   rbc::MembraneParameters parse(int, char **);
   double reach() const;
   void update_swelling(bool new_run);
-  void measure_cells();
-  void add_forces();
   void add_to_atoms(const LocalCells::Cell &, bool with_virial);
+  void take(const LocalCells::Cell &);
+  void store_size(std::size_t);
+  void measure_shared_cells();
+  void check(const LocalCells::Cell &, double volume);
+  void add_forces(const LocalCells::Cell &, const rbc::CellSize &);
   [[noreturn]] void stop(const LocalCells::Cell &, const std::string &);
   const rbc::MembraneEnergy &total_energy();
 };

@@ -1,17 +1,18 @@
 #pragma once
 
-#include "surface_template.h"
-
-#include <cmath>
+#include "plain_vector.h"
 
 namespace rbc {
 
-/// Angle between the normals of the triangles of a hinge, positive where the surface is convex.
-inline double hinge_angle(const Vec3 &edge_direction, const Vec3 &normal_left,
-                          const Vec3 &normal_right)
+/// Of the angle between the normals of the triangles of a hinge, positive where the surface is convex.
+struct HingeAngle {
+  double sine, cosine;
+};
+
+inline HingeAngle hinge_angle(PlainVector edge_direction, PlainVector normal_left,
+                              PlainVector normal_right)
 {
-  return std::atan2(normal_left.cross(normal_right).dot(edge_direction),
-                    normal_left.dot(normal_right));
+  return {dot(cross(normal_left, normal_right), edge_direction), dot(normal_left, normal_right)};
 }
 
 }    // namespace rbc

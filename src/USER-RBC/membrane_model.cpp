@@ -1,211 +1,238 @@
 #include "membrane_model.h"
 
+#include "arc_tangent.h"
+#include "dihedral_bending.h"
+#include "helfrich_bending.h"
 #include "hinge_geometry.h"
+#include "triangle_load.h"
+#include "vector_loop.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 
 namespace rbc {
 
-CellElements CellElements::whole(const SurfaceTemplate &shape)
+namespace {
+
+inline PlainVector position(const double *x, int vertex)
 {
-  CellElements all;
-  all.triangles.resize(shape.triangles.size());
-  std::iota(all.triangles.begin(), all.triangles.end(), 0);
-  all.hinges.resize(shape.hinges.size());
-  std::iota(all.hinges.begin(), all.hinges.end(), 0);
-  all.owned.assign(shape.size(), 1);
-  return all;
+  return {x[3 * vertex], x[3 * vertex + 1], x[3 * vertex + 2]};
 }
 
-CellElements CellElements::part(const SurfaceTemplate &shape, std::vector<char> owned, bool bending)
-{
-  const auto with_neighbours = [&](const std::vector<char> &core) {
-    std::vector<char> grown = core;
-    for (int v = 0; v < shape.size(); ++v)
-      if (core[v])
-        for (int w : shape.neighbours[v]) grown[w] = 1;
-    return grown;
-  };
-  const std::vector<char> core = bending ? with_neighbours(owned) : owned;
-  CellElements some;
-  for (int t = 0; t < static_cast<int>(shape.triangles.size()); ++t) {
-    const auto &[i, j, k] = shape.triangles[t];
-    if (core[i] || core[j] || core[k]) some.triangles.push_back(t);
-  }
-  for (int e = 0; e < static_cast<int>(shape.hinges.size()); ++e)
-    if (core[shape.hinges[e].a] || core[shape.hinges[e].b]) some.hinges.push_back(e);
-  some.owned = std::move(owned);
-  return some;
-}
+}    // namespace
 
 MembraneModel::MembraneModel(const SurfaceTemplate &shape, const MembraneParameters &parameters) :
     shape_(shape), parameters_(parameters), rest_volume_(shape.volume),
-    triangles_(shape.triangles.size()), vertex_area_(shape.size()), vertex_curvature_(shape.size()),
-    angle_(shape.hinges.size()), length_(shape.hinges.size()), vertex_tension_(shape.size()),
-    folded_(shape.triangles.size())
+    rest_curvature_(shape.curvature), edge1_(shape.triangles.size()),
+    edge2_(shape.triangles.size()), normal_(shape.triangles.size()),
+    twice_area_(shape.triangles.size()), corner_force_(3 * shape.triangles.size()),
+    moment_(shape.hinges.size()), pull_(shape.hinges.size()), vertex_area_(shape.size()),
+    vertex_integral_(shape.size()), vertex_tension_(shape.size()), folded_(shape.triangles.size())
 {
-}
-
-CellSize MembraneModel::measure(const CellElements &elements, const std::vector<Vec3> &x,
-                                Vec3 *volume_gradient) const
-{
-  if (volume_gradient) std::fill_n(volume_gradient, shape_.size(), Vec3::Zero());
-  CellSize share;
-  for (int t : elements.triangles) {
-    const auto &[i, j, k] = shape_.triangles[t];
-    const Vec3 twice_area = (x[j] - x[i]).cross(x[k] - x[i]);
-    if (volume_gradient)
-      for (int v : {i, j, k}) volume_gradient[v] += twice_area / 6;
-    if (!elements.owned[i]) continue;
-    share.area += twice_area.norm() / 2;
-    share.volume += x[i].dot(twice_area) / 6;
-  }
-  return share;
-}
-
-MembraneEnergy MembraneModel::forces(const CellElements &elements, const std::vector<Vec3> &x,
-                                     const CellSize &size, std::vector<Vec3> &f)
-{
-  std::fill(f.begin(), f.end(), Vec3::Zero());
-  triangle_geometry(elements, x);
-  const double bending = parameters_.bending > 0 ? bend(elements, x, f) : 0;
-  MembraneEnergy energy = std::visit(
-      [&](const auto &law) { return stretch(law, elements, x, size, f); }, parameters_.law);
-  energy.bending = bending;
-  return energy;
-}
-
-void MembraneModel::triangle_geometry(const CellElements &elements, const std::vector<Vec3> &x)
-{
-  for (int t : elements.triangles) {
-    const auto &[i, j, k] = shape_.triangles[t];
-    const Vec3 twice_area = (x[j] - x[i]).cross(x[k] - x[i]);
-    const double norm = twice_area.norm();
-    triangles_[t] = {twice_area / norm, norm / 2};
+  const double c0 = parameters.spontaneous_curvature;
+  if (!parameters.reference_curvature)
+    std::fill(rest_curvature_.begin(), rest_curvature_.end(), c0 / 2);
+  for (const ReferenceHinge &hinge : shape.reference_hinges) {
+    const double angle =
+        parameters.reference_curvature ? hinge.angle : dihedral_rest_angle(c0, hinge.dual);
+    rest_angle_.push_back({std::sin(angle), std::cos(angle)});
   }
 }
 
-double MembraneModel::bend(const CellElements &elements, const std::vector<Vec3> &x,
-                           std::vector<Vec3> &f)
+void MembraneModel::set_cell(const CellElements &elements, const std::vector<Vec3> &positions)
 {
-  std::fill(vertex_area_.begin(), vertex_area_.end(), 0.0);
-  std::fill(vertex_curvature_.begin(), vertex_curvature_.end(), 0.0);
-  for (int t : elements.triangles)
-    for (int v : shape_.triangles[t]) vertex_area_[v] += triangles_[t].area / 3;
-  for (int e : elements.hinges) {
-    const Hinge &hinge = shape_.hinges[e];
-    const Vec3 edge = x[hinge.b] - x[hinge.a];
-    length_[e] = edge.norm();
-    angle_[e] = hinge_angle(edge / length_[e], triangles_[hinge.left].normal,
-                            triangles_[hinge.right].normal);
-    const double quarter = length_[e] * angle_[e] / 4;
-    vertex_curvature_[hinge.a] += quarter;
-    vertex_curvature_[hinge.b] += quarter;
-  }
-
-  // From here vertex_curvature_ holds d(energy)/d(integral of H over the vertex area).
-  double energy = 0;
-  const double kappa = parameters_.bending;
-  for (int v = 0; v < shape_.size(); ++v) {
-    if (vertex_area_[v] == 0) continue;
-    const double rest = parameters_.reference_curvature ? shape_.curvature[v]
-                                                        : parameters_.spontaneous_curvature / 2;
-    const double curvature = vertex_curvature_[v] / vertex_area_[v], excess = curvature - rest;
-    if (elements.owned[v]) energy += 2 * kappa * excess * excess * vertex_area_[v];
-    vertex_curvature_[v] = 4 * kappa * excess;
-    vertex_tension_[v] = -2 * kappa * excess * (curvature + rest);
-  }
-
-  for (int e : elements.hinges) {
-    const Hinge &hinge = shape_.hinges[e];
-    const double moment = (vertex_curvature_[hinge.a] + vertex_curvature_[hinge.b]) / 4;
-    const Vec3 edge = x[hinge.b] - x[hinge.a];
-    const double length = length_[e], square = length * length;
-    const Triangle &left = triangles_[hinge.left], &right = triangles_[hinge.right];
-    const Vec3 left_slope = left.normal * (length / (2 * left.area));
-    const Vec3 right_slope = right.normal * (length / (2 * right.area));
-    const double c = (x[hinge.c] - x[hinge.a]).dot(edge) / square,
-                 d = (x[hinge.d] - x[hinge.a]).dot(edge) / square;
-    const double bending = moment * length;
-    const Vec3 stretching = edge * (moment * angle_[e] / length);
-    f[hinge.a] += stretching - bending * ((1 - c) * left_slope + (1 - d) * right_slope);
-    f[hinge.b] -= stretching + bending * (c * left_slope + d * right_slope);
-    f[hinge.c] += bending * left_slope;
-    f[hinge.d] += bending * right_slope;
-  }
-  return energy;
+  elements_ = &elements;
+  x_ = positions[0].data();
+  for_each(static_cast<int>(elements.triangles.size()), [&](int t) {
+    const PlainVector corner = position(x_, elements.corners[0][t]);
+    const PlainVector e1 = position(x_, elements.corners[1][t]) - corner;
+    const PlainVector e2 = position(x_, elements.corners[2][t]) - corner;
+    const PlainVector product = cross(e1, e2);
+    const double twice_area = norm(product);
+    edge1_.set(t, e1);
+    edge2_.set(t, e2);
+    normal_.set(t, (1 / twice_area) * product);
+    twice_area_[t] = twice_area;
+  });
 }
 
-template <typename Law>
-MembraneEnergy MembraneModel::stretch(const Law &law, const CellElements &elements,
-                                      const std::vector<Vec3> &x, const CellSize &size,
-                                      std::vector<Vec3> &f) const
+CellSize MembraneModel::size() const
 {
-  MembraneEnergy energy;
-  const double global_strain = (size.area - shape_.area) / shape_.area;
-  const double global_tension =
-      parameters_.global_area > 0 ? parameters_.global_area * global_strain : 0;
-  const double pressure = volume_stress(size);
-  for (int t : elements.triangles) {
-    const auto &[i, j, k] = shape_.triangles[t];
-    const ReferenceTriangle &reference = shape_.reference[t];
-    const Vec3 e1 = x[j] - x[i], e2 = x[k] - x[i];
-    const auto &[normal, area] = triangles_[t];
-    const double J = area / reference.area;
-    const double i1 = reference.g11 * e1.squaredNorm() + 2 * reference.g12 * e1.dot(e2) +
-                      reference.g22 * e2.squaredNorm();
-    const SheetEnergy sheet = law(i1, J);
-    double tension = sheet.by_J + global_tension + parameters_.local_area * (J - 1);
-    if (parameters_.bending > 0)
-      tension += (vertex_tension_[i] + vertex_tension_[j] + vertex_tension_[k]) / 3;
-
-    const double by_metric = 2 * sheet.by_i1 * reference.area;
-    const Vec3 force_j =
-        -by_metric * (reference.g11 * e1 + reference.g12 * e2) - (tension / 2) * e2.cross(normal);
-    const Vec3 force_k =
-        -by_metric * (reference.g12 * e1 + reference.g22 * e2) - (tension / 2) * normal.cross(e1);
-    f[j] += force_j;
-    f[k] += force_k;
-    f[i] -= force_j + force_k;
-
-    if (pressure != 0)
-      for (int v : {i, j, k}) f[v] += pressure * area / 3 * normal;
-    if (!elements.owned[i]) continue;
-    energy.sheet += sheet.density * reference.area;
-    energy.area += parameters_.local_area / 2 * (J - 1) * (J - 1) * reference.area;
-  }
-
-  // The penalties of a whole cell are counted by the rank that owns its first vertex.
-  if (elements.owned[0]) {
-    const double volume_strain = (size.volume - rest_volume_) / rest_volume_;
-    if (parameters_.global_area > 0)
-      energy.area += parameters_.global_area / 2 * global_strain * global_strain * shape_.area;
-    if (parameters_.volume > 0)
-      energy.volume = parameters_.volume / 2 * volume_strain * volume_strain * rest_volume_;
-  }
-  return energy;
+  const CellElements &elements = *elements_;
+  const int count = elements.loaded;
+  const std::vector<double> &counts = elements.triangle_counts;
+  return {sum(count, [&](int t) { return counts[t] * twice_area_[t] / 2; }), sum(count, [&](int t) {
+            const PlainVector corner = position(x_, elements.corners[0][t]);
+            return counts[t] * dot(corner, normal_[t]) * twice_area_[t] / 6;
+          })};
 }
 
-/// Outward force per area: minus the derivative of the volume energy.
-double MembraneModel::volume_stress(const CellSize &size) const
+void MembraneModel::volume_gradient(Vec3 *gradient) const
 {
-  if (parameters_.volume <= 0) return 0;
-  return -parameters_.volume * (size.volume - rest_volume_) / rest_volume_;
+  std::fill_n(gradient, shape_.size(), Vec3::Zero());
+  for (int t = 0; t < elements_->loaded; ++t) {
+    const PlainVector third = twice_area_[t] / 6 * normal_[t];
+    for (const std::vector<int> &corner : elements_->corners)
+      gradient[corner[t]] += Vec3(third.x, third.y, third.z);
+  }
 }
 
-int MembraneModel::find_inverted(const CellElements &elements, const std::vector<Vec3> &x)
+int MembraneModel::find_inverted()
 {
-  triangle_geometry(elements, x);
+  const std::vector<int> &left = elements_->left, &right = elements_->right;
   std::fill(folded_.begin(), folded_.end(), 0);
-  for (int e : elements.hinges) {
-    const Hinge &hinge = shape_.hinges[e];
-    if (triangles_[hinge.left].normal.dot(triangles_[hinge.right].normal) >= 0) continue;
-    for (int t : {hinge.left, hinge.right})
-      if (++folded_[t] == 3) return t;
+  for (std::size_t e = 0; e < elements_->hinges.size(); ++e) {
+    if (dot(normal_[left[e]], normal_[right[e]]) >= 0) continue;
+    for (int t : {left[e], right[e]})
+      if (++folded_[t] == 3) return elements_->triangles[t];
   }
   return -1;
+}
+
+MembraneEnergy MembraneModel::forces(const CellSize &size, std::vector<Vec3> &f)
+{
+  const MembraneEnergy energy = std::visit(
+      [&](const auto &law) {
+        if (parameters_.bending == 0) return load<BendingForm::none>(law, size);
+        if (parameters_.bending_form == BendingForm::dihedral)
+          return load<BendingForm::dihedral>(law, size);
+        return load<BendingForm::helfrich>(law, size);
+      },
+      parameters_.law);
+  sum_corners(f);
+  return energy;
+}
+
+/// Moments of the hinges.
+double MembraneModel::bend_hinges()
+{
+  const CellElements &elements = *elements_;
+  const double stiffness = dihedral_stiffness(parameters_.bending);
+  return sum(static_cast<int>(elements.hinges.size()), [&](int e) {
+    const PlainVector edge = position(x_, elements.end[e]) - position(x_, elements.begin[e]);
+    const double over_length = 1 / norm(edge);
+    const HingeAngle angle =
+        hinge_angle(over_length * edge, normal_[elements.left[e]], normal_[elements.right[e]]);
+    const RestAngle &rest = rest_angle_[elements.hinges[e]];
+    const HingeEnergy hinge =
+        dihedral_bending(stiffness, angle.sine, angle.cosine, rest.sine, rest.cosine);
+    moment_[e] = hinge.by_angle * over_length;
+    return elements.hinge_counts[e] * hinge.value;
+  });
+}
+
+/// Moments and pulls of the hinges, tensions of the vertices.
+double MembraneModel::bend_vertices()
+{
+  const CellElements &elements = *elements_;
+  const int hinges = static_cast<int>(elements.hinges.size());
+  for_each(hinges, [&](int e) {
+    const PlainVector edge = position(x_, elements.end[e]) - position(x_, elements.begin[e]);
+    const double length = norm(edge);
+    const HingeAngle angle =
+        hinge_angle((1 / length) * edge, normal_[elements.left[e]], normal_[elements.right[e]]);
+    const double theta = arc_tangent(angle.sine, angle.cosine);
+    moment_[e] = theta * length;
+    pull_[e] = theta / length;
+  });
+
+  std::fill(vertex_area_.begin(), vertex_area_.end(), 0.0);
+  std::fill(vertex_integral_.begin(), vertex_integral_.end(), 0.0);
+  for (std::size_t t = 0; t < elements.triangles.size(); ++t)
+    for (int c = 0; c < 3; ++c)
+      vertex_area_[elements.corners[c][t]] +=
+          shape_.corner_share[c][elements.triangles[t]] * twice_area_[t] / 2;
+  for (int e = 0; e < hinges; ++e)
+    for (int v : {elements.begin[e], elements.end[e]}) vertex_integral_[v] += moment_[e] / 4;
+
+  // From here vertex_integral_ holds d(energy)/d(integral).
+  double energy = 0;
+  for (int v = 0; v < shape_.size(); ++v) {
+    const VertexEnergy vertex = helfrich_bending(parameters_.bending, vertex_area_[v],
+                                                 vertex_integral_[v], rest_curvature_[v]);
+    if (elements.owned[v]) energy += vertex.value;
+    vertex_integral_[v] = vertex.by_integral;
+    vertex_tension_[v] = vertex.by_area;
+  }
+
+  for_each(hinges, [&](int e) {
+    moment_[e] = (vertex_integral_[elements.begin[e]] + vertex_integral_[elements.end[e]]) / 4;
+    pull_[e] *= moment_[e];
+  });
+  return energy;
+}
+
+/// Forces of the triangles on their corners.
+template <BendingForm form, typename Law>
+MembraneEnergy MembraneModel::load(const Law &law, const CellSize &size)
+{
+  MembraneEnergy energy;
+  if constexpr (form == BendingForm::dihedral) energy.bending = bend_hinges();
+  if constexpr (form == BendingForm::helfrich) energy.bending = bend_vertices();
+
+  const CellElements &elements = *elements_;
+  const auto &[i, j, k] = elements.corners;
+  const auto &[facing_i, facing_j, facing_k] = elements.opposite;
+  const auto &[share_i, share_j, share_k] = shape_.corner_share;
+  const double area_strain = (size.area - shape_.area) / shape_.area;
+  const double volume_strain = (size.volume - rest_volume_) / rest_volume_;
+  const double global_tension =
+      parameters_.global_area > 0 ? parameters_.global_area * area_strain : 0;
+  const double pressure = parameters_.volume > 0 ? -parameters_.volume * volume_strain : 0;
+  const double local_area = parameters_.local_area;
+  const int count = elements.loaded;
+
+  energy.sheet = sum(
+      count, [&](int t) __attribute__((always_inline)) {
+        TriangleLoad triangle(edge1_[t], edge2_[t], normal_[t], twice_area_[t]);
+        const auto &[g11, g12, g22, area] = shape_.reference[elements.triangles[t]];
+        const double J = twice_area_[t] / (2 * area);
+        const SheetEnergy sheet = law(triangle.contract(g11, g12, g22), J);
+        const double by_i1 = sheet.by_i1 * area;
+        triangle.add_metric(by_i1 * g11, by_i1 * g12, by_i1 * g22);
+        triangle.add_tension(sheet.by_J + local_area * (J - 1) + global_tension);
+        triangle.add_pressure(pressure);
+
+        if constexpr (form != BendingForm::none)
+          triangle.add_moments(moment_[facing_i[t]], moment_[facing_j[t]], moment_[facing_k[t]]);
+        if constexpr (form == BendingForm::helfrich) {
+          triangle.add_pulls(pull_[facing_i[t]] / 2, pull_[facing_j[t]] / 2,
+                             pull_[facing_k[t]] / 2);
+          const int n = elements.triangles[t];
+          triangle.add_tension(share_i[n] * vertex_tension_[i[t]] +
+                               share_j[n] * vertex_tension_[j[t]] +
+                               share_k[n] * vertex_tension_[k[t]]);
+        }
+
+        corner_force_.set(t, triangle.corner0());
+        corner_force_.set(count + t, triangle.corner1());
+        corner_force_.set(2 * count + t, triangle.corner2());
+        return elements.triangle_counts[t] * area * sheet.density;
+      });
+
+  if (local_area > 0)
+    energy.area = sum(count, [&](int t) {
+      const double area = shape_.reference[elements.triangles[t]].area;
+      const double strain = twice_area_[t] / (2 * area) - 1;
+      return elements.triangle_counts[t] * local_area / 2 * strain * strain * area;
+    });
+  // The penalties of a whole cell are counted by the rank that owns its first vertex.
+  if (elements.owned[0]) {
+    energy.area += parameters_.global_area / 2 * area_strain * area_strain * shape_.area;
+    energy.volume = parameters_.volume / 2 * volume_strain * volume_strain * rest_volume_;
+  }
+  return energy;
+}
+
+void MembraneModel::sum_corners(std::vector<Vec3> &f) const
+{
+  const CellElements &elements = *elements_;
+  for (int v = 0; v < shape_.size(); ++v) {
+    PlainVector sum{0, 0, 0};
+    for (int n = elements.fan_begin[v]; n < elements.fan_begin[v + 1]; ++n)
+      sum = sum + corner_force_[elements.fan[n]];
+    f[v] = {sum.x, sum.y, sum.z};
+  }
 }
 
 }    // namespace rbc

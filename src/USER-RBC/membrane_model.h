@@ -1,35 +1,29 @@
 #pragma once
 
+#include "cell_elements.h"
 #include "mooney_rivlin.h"
+#include "neo_hookean.h"
 #include "skalak.h"
 #include "surface_template.h"
+#include "vector_array.h"
 
 #include <variant>
 
 namespace rbc {
 
-using SheetLaw = std::variant<MooneyRivlin, Skalak>;
+using SheetLaw = std::variant<MooneyRivlin, NeoHookean, Skalak>;
+
+enum class BendingForm { none, helfrich, dihedral };
 
 /// Elastic constants of a membrane. A modulus of zero switches its energy off.
 struct MembraneParameters {
-  SheetLaw law = MooneyRivlin::neo_hookean(1);
-  double bending = 0;                  ///< Helfrich modulus kappa, energy
+  SheetLaw law = NeoHookean(1);
+  double bending = 0;    ///< Helfrich modulus kappa, energy
+  BendingForm bending_form = BendingForm::helfrich;
   bool reference_curvature = true;     ///< spontaneous curvature is that of the template, or else
   double spontaneous_curvature = 0;    ///< c0, the sum of both principal curvatures, 1/length
   double global_area = 0, local_area = 0;    ///< force per length
   double volume = 0;                         ///< force per area
-};
-
-/// The elements of one cell that a rank evaluates: all of them, or for a cell that other ranks share those needed
-/// for the forces on the vertices it owns.
-struct CellElements {
-  std::vector<int> triangles, hinges;
-  std::vector<char> owned;    ///< of each vertex of the template
-
-  static CellElements whole(const SurfaceTemplate &shape);
-
-  /// Elements around the owned vertices, and with bending around their neighbours too.
-  static CellElements part(const SurfaceTemplate &shape, std::vector<char> owned, bool bending);
 };
 
 /// Area and volume of a cell, or of the triangles whose first corner a rank owns.
@@ -42,10 +36,10 @@ struct MembraneEnergy {
   double total() const { return sheet + bending + area + volume; }
 };
 
-/// Forces of an elastic membrane on the vertices of a cell: linear triangles carry a hyperelastic sheet, vertices
-/// the Helfrich energy  2 kappa sum_i A_i (H_i - H0_i)^2  with H_i = sum_e l_e theta_e / (4 A_i) over the edges e of
-/// vertex i (Juelicher, J. Phys. II France 6 (1996) 1797; Guckenberger & Gekle, J. Phys.: Condens. Matter 29 (2017)
-/// 203001).
+/// Forces of an elastic membrane on the vertices of a cell: linear triangles carry a hyperelastic sheet. Bending is
+/// that of vertices, the Helfrich energy  2 kappa sum_v A_v (H_v - H0_v)^2  with H_v = sum_e l_e theta_e / (4 A_v)
+/// over the edges e of vertex v (Juelicher, J. Phys. II France 6 (1996) 1797) and the areas A_v of the template's
+/// shares of each triangle; or that of hinges.
 class MembraneModel {
  public:
   MembraneModel(const SurfaceTemplate &shape, const MembraneParameters &parameters);
@@ -58,42 +52,51 @@ class MembraneModel {
   /// Whether forces() needs the size of the whole cell.
   bool needs_size() const { return parameters_.global_area > 0 || parameters_.volume > 0; }
 
-  /// This rank's share of the size. Where `volume_gradient` is given (an entry for each vertex of the
-  /// template), dV/dx of every vertex whose triangles are all in `elements` is written there.
-  CellSize measure(const CellElements &elements, const std::vector<Vec3> &x,
-                   Vec3 *volume_gradient = nullptr) const;
+  /// Takes a cell in hand; the functions below are of this cell. Positions must be relative to a nearby origin; they
+  /// and `elements` are kept by reference.
+  void set_cell(const CellElements &elements, const std::vector<Vec3> &x);
 
-  /// Forces on the vertices owned (others are left undefined) and this rank's share of the energy. `size` is that of
-  /// the whole cell. Positions must be relative to a nearby origin.
-  MembraneEnergy forces(const CellElements &elements, const std::vector<Vec3> &x,
-                        const CellSize &size, std::vector<Vec3> &f);
+  /// This rank's share of the size.
+  CellSize size() const;
+
+  /// dV/dx of the vertices owned (others are left undefined), an entry for each vertex of the template.
+  void volume_gradient(Vec3 *gradient) const;
 
   /// A triangle that lies folded over against all three neighbours, or -1.
-  int find_inverted(const CellElements &elements, const std::vector<Vec3> &x);
+  int find_inverted();
+
+  /// Forces on the vertices owned (others are left undefined) and this rank's share of the energy. `size` is that of
+  /// the whole cell.
+  MembraneEnergy forces(const CellSize &size, std::vector<Vec3> &f);
 
  private:
-  struct Triangle {
-    Vec3 normal;
-    double area;
+  struct RestAngle {
+    double sine, cosine;
   };
 
-  void triangle_geometry(const CellElements &elements, const std::vector<Vec3> &x);
-  double bend(const CellElements &elements, const std::vector<Vec3> &x, std::vector<Vec3> &f);
-  template <typename Law>
-  MembraneEnergy stretch(const Law &law, const CellElements &elements, const std::vector<Vec3> &x,
-                         const CellSize &size, std::vector<Vec3> &f) const;
-  double volume_stress(const CellSize &size) const;
+  double bend_hinges();
+  double bend_vertices();
+  template <BendingForm form, typename Law>
+  MembraneEnergy load(const Law &law, const CellSize &size);
+  void sum_corners(std::vector<Vec3> &f) const;
 
   const SurfaceTemplate &shape_;
   MembraneParameters parameters_;
   double rest_volume_;
+  std::vector<RestAngle> rest_angle_;     ///< of each hinge of the template
+  std::vector<double> rest_curvature_;    ///< of each vertex of the template
 
   // Of the cell in hand.
-  std::vector<Triangle> triangles_;
-  std::vector<double> vertex_area_, vertex_curvature_;
-  std::vector<double> angle_, length_;
-  std::vector<double> vertex_tension_;    ///< d(bending energy)/d(vertex area)
-  std::vector<int> folded_;               ///< neighbours against which a triangle is folded over
+  const CellElements *elements_ = nullptr;
+  const double *x_ = nullptr;
+  VectorArray edge1_, edge2_, normal_;    ///< of each triangle: from its first corner to the others
+  std::vector<double> twice_area_;
+  VectorArray corner_force_;
+  std::vector<double> moment_;    ///< of each hinge: d(energy)/d(angle) per length
+  std::vector<double> pull_;      ///< of each hinge: d(energy)/d(length) per length
+  std::vector<double> vertex_area_, vertex_integral_;    ///< of the mean curvature
+  std::vector<double> vertex_tension_;                   ///< d(bending energy)/d(vertex area)
+  std::vector<int> folded_;    ///< neighbours against which a triangle is folded over
 };
 
 }    // namespace rbc

@@ -6,11 +6,9 @@ namespace rbc {
 
 /// Incompressible Mooney-Rivlin sheet of stress-free thickness h in plane stress (lambda3 = 1/J):
 ///   W = h [C1 (i1 + 1/J^2 - 3) + C2 (J^2 + i1/J^2 - 3)],   shear modulus G_s = 2 (C1 + C2) h.
-/// C2 = 0 is the neo-Hookean sheet.
 class MooneyRivlin {
  public:
   MooneyRivlin(double C1, double C2, double h) : c1_(C1 * h), c2_(C2 * h) {}
-  static MooneyRivlin neo_hookean(double Gs) { return {Gs / 2, 0, 1}; }
 
   SheetEnergy operator()(double i1, double J) const
   {

@@ -1,6 +1,7 @@
 #include "surface_template.h"
 
-#include "hinge_geometry.h"
+#include "arc_tangent.h"
+#include "corner_share.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -114,14 +115,25 @@ SurfaceTemplate::SurfaceTemplate(std::vector<Vec3> vertices_in, std::vector<Corn
     normals[t] = cross / twice_area;
     area += twice_area / 2;
     volume += vertices[i].dot(vertices[j].cross(vertices[k])) / 6;
-    for (int v : triangles[t]) vertex_area[v] += twice_area / 6;
+    const std::array<double, 3> shares = mixed_corner_shares(e1, e2);
+    for (int c = 0; c < 3; ++c) {
+      corner_share[c].push_back(shares[c]);
+      vertex_area[triangles[t][c]] += shares[c] * twice_area / 2;
+    }
   }
   require(volume > 0, "the triangles are oriented inward (volume " + std::to_string(volume) + ")");
 
   for (const Hinge &hinge : hinges) {
     const Vec3 edge = vertices[hinge.b] - vertices[hinge.a];
     const double length = edge.norm();
-    const double angle = hinge_angle(edge / length, normals[hinge.left], normals[hinge.right]);
+    const Vec3 &left_normal = normals[hinge.left], &right_normal = normals[hinge.right];
+    const double angle = arc_tangent(left_normal.cross(right_normal).dot(edge) / length,
+                                     left_normal.dot(right_normal));
+    const auto cotangent = [&](int corner) {
+      const Vec3 a = vertices[hinge.a] - vertices[corner], b = vertices[hinge.b] - vertices[corner];
+      return a.dot(b) / a.cross(b).norm();
+    };
+    reference_hinges.push_back({angle, length / 2 * (cotangent(hinge.c) + cotangent(hinge.d))});
     for (int v : {hinge.a, hinge.b}) curvature[v] += length * angle / 4 / vertex_area[v];
     longest_edge = std::max(longest_edge, length);
     mean_edge += length / hinges.size();

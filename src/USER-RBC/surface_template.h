@@ -14,6 +14,12 @@ struct ReferenceTriangle {
   double area;
 };
 
+/// Of an edge in the stress-free shape.
+struct ReferenceHinge {
+  double angle;
+  double dual;    ///< distance of the circumcentres of its triangles, laid flat
+};
+
 /// Edge from a to b with the two triangles it joins: (a, b, c) to its left and (b, a, d) to its right, seen from
 /// outside.
 struct Hinge {
@@ -41,6 +47,8 @@ class SurfaceTemplate {
   std::vector<Corners> triangles;
   std::vector<Hinge> hinges;
   std::vector<ReferenceTriangle> reference;
+  std::vector<ReferenceHinge> reference_hinges;
+  std::array<std::vector<double>, 3> corner_share;    ///< of each triangle's area
   std::vector<double> curvature;               ///< mean curvature of the shape at each vertex
   std::vector<std::vector<int>> neighbours;    ///< vertices that share an edge
   std::vector<std::vector<int>> fans;          ///< triangles around each vertex

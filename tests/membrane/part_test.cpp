@@ -94,8 +94,10 @@ TEST_P(Parts, GiveTheForcesAndSumToTheEnergiesOfTheWhole)
       Vertices force(x.size()), gradient(x.size());
       for (int t : elements.triangles)
         for (int v : shape.triangles[t]) ASSERT_TRUE(known[v]);
-      const rbc::CellSize share = model.measure(elements, near, gradient.data());
-      const rbc::MembraneEnergy part = model.forces(elements, near, whole.size, force);
+      model.set_cell(elements, near);
+      const rbc::CellSize share = model.size();
+      model.volume_gradient(gradient.data());
+      const rbc::MembraneEnergy part = model.forces(whole.size, force);
       size.area += share.area;
       size.volume += share.volume;
       energy.sheet += part.sheet;
@@ -123,17 +125,22 @@ TEST(Measure, VolumeGradientIsThatOfTheVolume)
 {
   const rbc::SurfaceTemplate shape = disc(4).surface();
   const auto all = rbc::CellElements::whole(shape);
-  const rbc::MembraneModel model(shape, {});
+  rbc::MembraneModel model(shape, {});
   Vertices x = waved(shape.vertices, 8), gradient(x.size());
-  model.measure(all, x, gradient.data());
+  const auto volume = [&] {
+    model.set_cell(all, x);
+    return model.size().volume;
+  };
+  volume();
+  model.volume_gradient(gradient.data());
   for (int v = 0; v < shape.size(); ++v)
     for (int d = 0; d < 3; ++d) {
       // The volume is linear in each coordinate.
       const double at = x[v][d];
       x[v][d] = at + 0.5;
-      const double above = model.measure(all, x).volume;
+      const double above = volume();
       x[v][d] = at - 0.5;
-      EXPECT_NEAR(gradient[v][d], above - model.measure(all, x).volume, 1e-14);
+      EXPECT_NEAR(gradient[v][d], above - volume(), 1e-14);
       x[v][d] = at;
     }
 }
@@ -149,7 +156,9 @@ Vertices inverted(const rbc::SurfaceTemplate &shape, Vertices x, int triangle)
 int find_inverted(const rbc::SurfaceTemplate &shape, const Vertices &x)
 {
   rbc::MembraneModel model(shape, {});
-  return model.find_inverted(rbc::CellElements::whole(shape), x);
+  const auto all = rbc::CellElements::whole(shape);
+  model.set_cell(all, x);
+  return model.find_inverted();
 }
 
 TEST(Inverted, EveryTriangleIsFound)
@@ -202,7 +211,8 @@ TEST(Inverted, IsFoundByAnOwnerOfTwoOfItsCorners)
         const auto &[i, j, k] = shape.triangles[t];
         for (int owner = 0; owner < count(owners); ++owner) {
           const int corners = (owners[i] == owner) + (owners[j] == owner) + (owners[k] == owner);
-          const int found = model.find_inverted(parts[owner], x);
+          model.set_cell(parts[owner], x);
+          const int found = model.find_inverted();
           ASSERT_TRUE(found == t || found == -1);
           if (corners >= (bending ? 1 : 2)) {
             ASSERT_EQ(found, t);

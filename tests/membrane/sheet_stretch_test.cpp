@@ -14,7 +14,7 @@ struct LawInClosedForm {
 };
 
 const LawInClosedForm laws[] = {
-    {rbc::MooneyRivlin::neo_hookean(2), [](double i1, double J) { return i1 + 1 / (J * J) - 3; }},
+    {rbc::NeoHookean(2), [](double i1, double J) { return i1 + 1 / (J * J) - 3; }},
     {rbc::MooneyRivlin(30, 70, 0.01),
      [](double i1, double J) {
        return 0.3 * (i1 + 1 / (J * J) - 3) + 0.7 * (J * J + i1 / (J * J) - 3);

@@ -66,7 +66,7 @@ TEST(StressFree, EnergyOfTheCellIsThatOfItsStretches)
   skalak.global_area = 3;
   skalak.volume = 2;
   skalak.bending = 0.3;
-  neo_hookean.law = rbc::MooneyRivlin::neo_hookean(1.3);
+  neo_hookean.law = rbc::NeoHookean(1.3);
   double sheet = 0, area = 0, incompressible = 0;
   for (const auto &[i, j, k] : cell.shape.triangles) {
     const auto &p = cell.sphere.vertices, &q = cell.shape.vertices;
@@ -133,7 +133,7 @@ TEST(StressFree, TensionIsThatOfTheStressFreeShape)
   // a sphere grown by l: T = Gs (1 - l^-6) of a neo-Hookean sheet, plus the local area term
   const DiscFromSphere cell;
   rbc::MembraneParameters parameters;
-  parameters.law = rbc::MooneyRivlin::neo_hookean(1.3);
+  parameters.law = rbc::NeoHookean(1.3);
   parameters.local_area = 0.7;
   const double l = 1.15;
   const Vertices x =

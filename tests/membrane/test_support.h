@@ -248,8 +248,10 @@ inline Result evaluate(rbc::MembraneModel &model, const rbc::SurfaceTemplate &sh
   Result result;
   result.force.resize(x.size());
   result.volume_gradient.resize(x.size());
-  result.size = model.measure(all, x, result.volume_gradient.data());
-  result.energy = model.forces(all, x, result.size, result.force);
+  model.set_cell(all, x);
+  result.size = model.size();
+  model.volume_gradient(result.volume_gradient.data());
+  result.energy = model.forces(result.size, result.force);
   return result;
 }
 
@@ -287,7 +289,7 @@ inline std::map<std::string, rbc::MembraneParameters> each_energy()
   const auto add = [&](const std::string &name) -> rbc::MembraneParameters & {
     return sets[name] = nothing;
   };
-  add("neo-Hookean").law = rbc::MooneyRivlin::neo_hookean(1.3);
+  add("neo-Hookean").law = rbc::NeoHookean(1.3);
   add("Mooney-Rivlin").law = rbc::MooneyRivlin(40, 25, 0.01);
   add("Skalak").law = rbc::Skalak(0.8, 5);
   add("bending, reference").bending = 0.3;
@@ -297,6 +299,8 @@ inline std::map<std::string, rbc::MembraneParameters> each_energy()
   rbc::MembraneParameters &curved = add("bending, c0 = -1.7");
   curved = flat;
   curved.spontaneous_curvature = -1.7;
+  for (const char *name : {"bending, reference", "bending, c0 = 0", "bending, c0 = -1.7"})
+    (add(std::string(name) + ", dihedral") = sets.at(name)).bending_form = rbc::BendingForm::dihedral;
   add("local area").local_area = 4;
   add("global area").global_area = 4;
   add("volume").volume = 6;
