@@ -1,0 +1,51 @@
+#include "path.h"
+
+#include <gtest/gtest.h>
+
+using rbc::Numbers;
+using rbc::Path;
+
+namespace {
+
+/// One number that moves along t^power.
+Numbers place(double t, int power)
+{
+  return {std::pow(t, power), 0, 0};
+}
+
+TEST(Path, ContinuesPolynomialsUpToItsLengthExactly)
+{
+  const double times[] = {-2.3, -1.9, -1.0, -0.4, 0.0};
+  for (int length = 1; length <= Path::LONGEST; ++length)
+    for (int power = 0; power <= length; ++power) {
+      Path path;
+      path.clear(length);
+      for (int n = 1; n < 5; ++n)
+        path.add(times[n] - times[n - 1],
+                 {place(times[n], power)[0] - place(times[n - 1], power)[0], 0, 0});
+      for (double t : {-0.7, 0.0, 0.35, 1.1}) {
+        Numbers x = place(0, power), v(3);
+        path.add_to(x, path.place(t), 1);
+        path.add_to(v, path.speed(t), 1);
+        EXPECT_NEAR(x[0], place(t, power)[0], 1e-12) << length << " " << power << " " << t;
+        EXPECT_NEAR(v[0], power == 0 ? 0 : power * std::pow(t, power - 1), 1e-11);
+      }
+    }
+}
+
+TEST(Path, KeepsTheLastSteps)
+{
+  Path path;
+  path.clear(2);
+  for (int n = 1; n <= 3; ++n) path.add(n, {10.0 * n, 0, 0});
+  EXPECT_EQ(path.steps(), 2);
+  EXPECT_EQ(path.moved(0)[0], 30);
+  EXPECT_EQ(path.moved(1)[0], 20);
+  EXPECT_EQ(path.span(1), 2);
+  EXPECT_EQ(path.last_span(), 3);
+  path.clear(0);
+  path.add(1, {1, 1, 1});
+  EXPECT_EQ(path.steps(), 0);
+}
+
+}    // namespace

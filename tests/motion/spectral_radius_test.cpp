@@ -1,0 +1,56 @@
+#include "spectral_radius.h"
+
+#include "test_motion.h"
+
+#include <gtest/gtest.h>
+
+using rbc::Numbers;
+
+namespace {
+
+/// Rates evenly from `largest`/size to `largest`, in directions that a reflection mixes.
+test::Matrix relaxation(int size, double largest)
+{
+  Numbers w(size);
+  double square = 0;
+  for (int i = 0; i < size; ++i) {
+    w[i] = 1 + std::sin(3.0 * i);
+    square += w[i] * w[i];
+  }
+  const auto reflection = [&](int i, int j) { return (i == j) - 2 * w[i] * w[j] / square; };
+  test::Matrix matrix(size, Numbers(size));
+  for (int i = 0; i < size; ++i)
+    for (int j = 0; j < size; ++j)
+      for (int n = 0; n < size; ++n)
+        matrix[i][j] -= largest * (n + 1) / size * reflection(i, n) * reflection(n, j);
+  return matrix;
+}
+
+TEST(SpectralRadius, FindsTheLargestRate)
+{
+  for (double largest : {1e-3, 7.0, 1e6}) {
+    test::GivenMotion motion = test::linear_motion(relaxation(30, largest));
+    Numbers x(30, 1.0), v(30), mode(30, 0.3);
+    mode[4] = -1;
+    motion.velocity(x, 0, v);
+    rbc::SpectralRadius spectrum;
+    spectrum.tolerance = 1e-3;
+    const double radius = spectrum.estimate(motion, x, v, 1e-4, mode);
+    EXPECT_GT(radius, 0.97 * largest);
+    EXPECT_LT(radius, (1 + 1e-6) * largest);
+
+    // the mode is a good guess for the next estimate
+    motion.evaluations = 0;
+    spectrum.estimate(motion, x, v, 1e-4, mode);
+    EXPECT_LE(motion.evaluations, 3);
+  }
+}
+
+TEST(SpectralRadius, IsZeroWhereNothingDependsOnPositions)
+{
+  test::GivenMotion motion([](const Numbers &, double, Numbers &v) { v.assign(3, 1.0); });
+  Numbers mode(3, 1.0);
+  EXPECT_EQ(rbc::SpectralRadius().estimate(motion, Numbers(3), Numbers(3, 1.0), 1e-4, mode), 0);
+}
+
+}    // namespace
