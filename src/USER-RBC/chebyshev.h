@@ -6,20 +6,20 @@ namespace rbc {
 
 /// Runge-Kutta-Chebyshev method with s stages, for stiff problems with a nearly real spectrum (Sommeijer, Shampine and
 /// Verwer, J. Comput. Appl. Math. 88 (1998) 315). It is of second order. Applied to the deviation Y of the points from
-/// the polynomial P through their last q places,
+/// the cubic polynomial P through their last four places,
 ///   Y' = V(P + Y) - P',
-/// it gains the order q for q = 3 and 4 at no cost but memory: its error is that of a solution that nearly vanishes.
+/// it becomes a method of third order at no cost but memory: its error is that of a solution that nearly vanishes.
 class ChebyshevMethod {
  public:
   static constexpr int LEAST_STAGES = 2;
 
-  /// `order` 2, 3 or 4.
+  /// `order` 2 or 3.
   explicit ChebyshevMethod(int order = 2);
 
   int order() const { return order_; }
 
   /// Steps that a Path must hold.
-  int past_steps() const { return order_ == 2 ? 0 : order_; }
+  int past_steps() const { return order_ == 2 ? 0 : Path::LONGEST; }
 
   /// Largest time step times spectral radius.
   double stability_limit(int stages) const;

@@ -119,8 +119,8 @@ void FixRBCIB::parse(int narg, char **arg)
       iterates = true;
     } else if (keyword == "order") {
       order = utils::inumeric(FLERR, value, false, lmp);
-      if (order < 2 || order > 4)
-        error->all(FLERR, iarg + 1, "Fix rbc/ib order value {} must be 2, 3 or 4", value);
+      if (order != 2 && order != 3)
+        error->all(FLERR, iarg + 1, "Fix rbc/ib order value {} must be 2 or 3", value);
     } else if (keyword == "courant")
       courant = positive(iarg + 1, keyword);
     else if (keyword == "adapt") {

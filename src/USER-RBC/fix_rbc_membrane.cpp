@@ -26,7 +26,7 @@ static constexpr double VOLUME_STEPS = 10.0;
 FixRBCMembrane::FixRBCMembrane(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
 {
   scalar_flag = vector_flag = 1;
-  size_vector = 4;
+  size_vector = 5;
   global_freq = 1;
   extscalar = extvector = 1;
   energy_global_flag = 1;
@@ -345,14 +345,31 @@ void FixRBCMembrane::add_to_atoms(const LocalCells::Cell &cell, bool with_virial
 void FixRBCMembrane::add_viscous_forces(bool with_virial)
 {
   if (comm->nprocs > 1) comm->forward_comm(this);
-  power = 0;
   for (const LocalCells::Cell &cell : cells->cells()) {
-    cells->gather(cell, x);
-    for (int i = 0; i < surface->size(); ++i)
-      if (cell.atom[i] >= 0) v[i] = Vec3(atom->v[cell.atom[i]]);
-    power += rbc::viscous_forces(*surface, viscosity, *cell.elements, x, v, f);
+    viscous_forces(cell);
     add_to_atoms(cell, with_virial);
   }
+}
+
+/* ----------------------------------------------------------------------
+   forces on the vertices of a cell; returns the power that its part here dissipates
+------------------------------------------------------------------------- */
+
+double FixRBCMembrane::viscous_forces(const LocalCells::Cell &cell)
+{
+  cells->gather(cell, x);
+  for (int i = 0; i < surface->size(); ++i)
+    if (cell.atom[i] >= 0) v[i] = Vec3(atom->v[cell.atom[i]]);
+  return rbc::viscous_forces(*surface, viscosity, *cell.elements, x, v, f);
+}
+
+double FixRBCMembrane::viscous_power()
+{
+  if (comm->nprocs > 1) comm->forward_comm(this);
+  double power = 0;
+  for (const LocalCells::Cell &cell : cells->cells()) power += viscous_forces(cell);
+  MPI_Allreduce(MPI_IN_PLACE, &power, 1, MPI_DOUBLE, MPI_SUM, world);
+  return power;
 }
 
 int FixRBCMembrane::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/,
@@ -449,6 +466,7 @@ double FixRBCMembrane::compute_scalar()
 
 double FixRBCMembrane::compute_vector(int n)
 {
+  if (n == 4) return is_viscous() ? viscous_power() : 0;
   const rbc::MembraneEnergy &parts = total_energy();
   const double part[4] = {parts.sheet, parts.bending, parts.area, parts.volume};
   return part[n];

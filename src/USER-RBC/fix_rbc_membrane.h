@@ -66,12 +66,13 @@ class FixRBCMembrane : public Fix {
   std::vector<double> sizes;                 // area and volume of each cell here
   std::vector<double> volume_rates, sums;
   rbc::MembraneEnergy energy, energy_all;
-  double power = 0;    // dissipated by the membranes here
   bigint energy_step = -1;
 
   rbc::MembraneParameters parse(int, char **);
   double reach() const;
   void update_swelling(bool new_run);
+  double viscous_forces(const LocalCells::Cell &);
+  double viscous_power();
   void add_to_atoms(const LocalCells::Cell &, bool with_virial);
   void take(const LocalCells::Cell &);
   void store_size(std::size_t);

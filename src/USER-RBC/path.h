@@ -9,7 +9,7 @@ namespace rbc {
 /// Where points were at the ends of the last steps, and the polynomial in time through these places.
 class Path {
  public:
-  static constexpr int LONGEST = 4;
+  static constexpr int LONGEST = 3;
 
   int steps() const { return steps_; }
   double last_span() const { return spans_[0]; }

@@ -53,7 +53,7 @@ double error_at_end(int order, double fast, int steps)
 }
 
 class Order : public testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Chebyshev, Order, testing::Values(2, 3, 4));
+INSTANTIATE_TEST_SUITE_P(Chebyshev, Order, testing::Values(2, 3));
 
 TEST_P(Order, IsThatOfTheMethod)
 {
@@ -111,7 +111,6 @@ TEST(Chebyshev, IsStableUpToItsLimitAndNotBeyond)
       EXPECT_LT(growth(order, stages, 0.999), 1) << order << " " << stages;
       EXPECT_GT(growth(order, stages, 1.2), 1) << order << " " << stages;
     }
-  for (int stages : {6, 10, 40, 200}) EXPECT_LT(growth(4, stages, 0.999), 1) << stages;
 }
 
 TEST(Chebyshev, TakesAsFewStagesAsTheLimitAllows)
