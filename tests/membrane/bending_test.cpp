@@ -93,7 +93,7 @@ struct ForceError {
   {
     const Mesh mesh = disc(frequency, tabulated);
     const rbc::SurfaceTemplate shape = mesh.surface();
-    const std::vector<double> areas = vertex_areas(mesh);
+    const std::vector<double> areas = vertex_areas(shape);
     const Result result = evaluate(shape, bending(1, 0), mesh.vertices);
 
     std::vector<char> excluded(shape.size());
