@@ -97,10 +97,11 @@ rbc::MembraneParameters FixRBCMembrane::parse(int narg, char **arg)
         const bool is_form = value == "helfrich" || value == "dihedral";
         if (!is_form && value != "reference" && !utils::is_double(value)) break;
         if (is_form ? formed : curved)
-          error->all(FLERR, iarg,
-                     "Fix rbc/membrane bending value {} is one too many: allowed are one of reference "
-                     "or c0, and one of helfrich or dihedral",
-                     value);
+          error->all(
+              FLERR, iarg,
+              "Fix rbc/membrane bending value {} is one too many: allowed are one of reference "
+              "or c0, and one of helfrich or dihedral",
+              value);
         (is_form ? formed : curved) = true;
         if (is_form)
           parameters.bending_form =

@@ -110,8 +110,8 @@ double MembraneModel::bend_hinges()
   return sum(static_cast<int>(elements.hinges.size()), [&](int e) {
     const PlainVector edge = position(x_, elements.end[e]) - position(x_, elements.begin[e]);
     const double over_length = 1 / norm(edge);
-    const HingeAngle angle = hinge_angle(over_length * edge, normal_[elements.left[e]],
-                                         normal_[elements.right[e]]);
+    const HingeAngle angle =
+        hinge_angle(over_length * edge, normal_[elements.left[e]], normal_[elements.right[e]]);
     const RestAngle &rest = rest_angle_[elements.hinges[e]];
     const HingeEnergy hinge =
         dihedral_bending(stiffness, angle.sine, angle.cosine, rest.sine, rest.cosine);
@@ -128,8 +128,8 @@ double MembraneModel::bend_vertices()
   for_each(hinges, [&](int e) {
     const PlainVector edge = position(x_, elements.end[e]) - position(x_, elements.begin[e]);
     const double length = norm(edge);
-    const HingeAngle angle = hinge_angle((1 / length) * edge, normal_[elements.left[e]],
-                                         normal_[elements.right[e]]);
+    const HingeAngle angle =
+        hinge_angle((1 / length) * edge, normal_[elements.left[e]], normal_[elements.right[e]]);
     const double theta = arc_tangent(angle.sine, angle.cosine);
     moment_[e] = theta * length;
     pull_[e] = theta / length;
@@ -181,30 +181,33 @@ MembraneEnergy MembraneModel::load(const Law &law, const CellSize &size)
   const double local_area = parameters_.local_area;
   const int count = elements.loaded;
 
-  energy.sheet = sum(count, [&](int t) __attribute__((always_inline)) {
-    TriangleLoad triangle(edge1_[t], edge2_[t], normal_[t], twice_area_[t]);
-    const auto &[g11, g12, g22, area] = shape_.reference[elements.triangles[t]];
-    const double J = twice_area_[t] / (2 * area);
-    const SheetEnergy sheet = law(triangle.contract(g11, g12, g22), J);
-    const double by_i1 = sheet.by_i1 * area;
-    triangle.add_metric(by_i1 * g11, by_i1 * g12, by_i1 * g22);
-    triangle.add_tension(sheet.by_J + local_area * (J - 1) + global_tension);
-    triangle.add_pressure(pressure);
+  energy.sheet = sum(
+      count, [&](int t) __attribute__((always_inline)) {
+        TriangleLoad triangle(edge1_[t], edge2_[t], normal_[t], twice_area_[t]);
+        const auto &[g11, g12, g22, area] = shape_.reference[elements.triangles[t]];
+        const double J = twice_area_[t] / (2 * area);
+        const SheetEnergy sheet = law(triangle.contract(g11, g12, g22), J);
+        const double by_i1 = sheet.by_i1 * area;
+        triangle.add_metric(by_i1 * g11, by_i1 * g12, by_i1 * g22);
+        triangle.add_tension(sheet.by_J + local_area * (J - 1) + global_tension);
+        triangle.add_pressure(pressure);
 
-    if constexpr (form != BendingForm::none)
-      triangle.add_moments(moment_[facing_i[t]], moment_[facing_j[t]], moment_[facing_k[t]]);
-    if constexpr (form == BendingForm::helfrich) {
-      triangle.add_pulls(pull_[facing_i[t]] / 2, pull_[facing_j[t]] / 2, pull_[facing_k[t]] / 2);
-      const int n = elements.triangles[t];
-      triangle.add_tension(share_i[n] * vertex_tension_[i[t]] + share_j[n] * vertex_tension_[j[t]] +
-                           share_k[n] * vertex_tension_[k[t]]);
-    }
+        if constexpr (form != BendingForm::none)
+          triangle.add_moments(moment_[facing_i[t]], moment_[facing_j[t]], moment_[facing_k[t]]);
+        if constexpr (form == BendingForm::helfrich) {
+          triangle.add_pulls(pull_[facing_i[t]] / 2, pull_[facing_j[t]] / 2,
+                             pull_[facing_k[t]] / 2);
+          const int n = elements.triangles[t];
+          triangle.add_tension(share_i[n] * vertex_tension_[i[t]] +
+                               share_j[n] * vertex_tension_[j[t]] +
+                               share_k[n] * vertex_tension_[k[t]]);
+        }
 
-    corner_force_.set(t, triangle.corner0());
-    corner_force_.set(count + t, triangle.corner1());
-    corner_force_.set(2 * count + t, triangle.corner2());
-    return elements.triangle_counts[t] * area * sheet.density;
-  });
+        corner_force_.set(t, triangle.corner0());
+        corner_force_.set(count + t, triangle.corner1());
+        corner_force_.set(2 * count + t, triangle.corner2());
+        return elements.triangle_counts[t] * area * sheet.density;
+      });
 
   if (local_area > 0)
     energy.area = sum(count, [&](int t) {

@@ -89,8 +89,8 @@ class MembraneModel {
   VectorArray edge1_, edge2_, normal_;    ///< of each triangle: from its first corner to the others
   std::vector<double> twice_area_;
   VectorArray corner_force_;
-  std::vector<double> moment_;      ///< of each hinge: d(energy)/d(angle) per length
-  std::vector<double> pull_;        ///< of each hinge: d(energy)/d(length) per length
+  std::vector<double> moment_;    ///< of each hinge: d(energy)/d(angle) per length
+  std::vector<double> pull_;      ///< of each hinge: d(energy)/d(length) per length
   std::vector<double> vertex_area_, vertex_integral_;    ///< of the mean curvature
   std::vector<double> vertex_tension_;                   ///< d(bending energy)/d(vertex area)
   std::vector<int> folded_;    ///< neighbours against which a triangle is folded over

@@ -82,8 +82,8 @@ const rbc::SurfaceTemplate &sphere(int frequency)
   static std::map<int, rbc::SurfaceTemplate> made;
   const auto found = made.find(frequency);
   return found != made.end()
-      ? found->second
-      : made.emplace(frequency, icosphere(frequency).surface()).first->second;
+             ? found->second
+             : made.emplace(frequency, icosphere(frequency).surface()).first->second;
 }
 
 /// With Gs = 1.
@@ -98,8 +98,7 @@ template <typename Function> double integral(const Function &f, double end)
 {
   const int count = 80;
   double sum = 0;
-  for (int n = 0; n <= count; ++n)
-    sum += (n % count == 0 ? 1 : n % 2 ? 4 : 2) * f(end * n / count);
+  for (int n = 0; n <= count; ++n) sum += (n % count == 0 ? 1 : n % 2 ? 4 : 2) * f(end * n / count);
   return sum * end / (3 * count);
 }
 

@@ -41,16 +41,17 @@ Number sheet_energy(const rbc::SurfaceTemplate &shape, const std::vector<Vector>
 {
   Number energy;
   for (const auto &[i, j, k] : shape.triangles) {
-    const Vec3 E1 = shape.vertices[j] - shape.vertices[i], E2 = shape.vertices[k] - shape.vertices[i];
+    const Vec3 E1 = shape.vertices[j] - shape.vertices[i],
+               E2 = shape.vertices[k] - shape.vertices[i];
     const double base = E1.norm(), foot = E1.dot(E2) / base, height = E1.cross(E2).norm() / base;
     const Vector e1 = x[j] - x[i], e2 = x[k] - x[i];
     // Columns of the gradient: along the base, and across.
     const Vector along{e1[0] / base, e1[1] / base, e1[2] / base};
     Vector across;
     for (int d = 0; d < 3; ++d) across[d] = (e2[d] - foot * along[d]) / height;
-    energy = energy +
-        base * height / 2 *
-            density(dot(along, along) + dot(across, across), norm(cross(along, across)));
+    energy =
+        energy + base * height / 2 *
+                     density(dot(along, along) + dot(across, across), norm(cross(along, across)));
   }
   return energy;
 }
@@ -125,8 +126,7 @@ Case bending(rbc::BendingForm form)
 }
 
 const std::map<std::string, Case> cases{
-    {"NeoHookean", sheet(rbc::NeoHookean(2),
-                         [](auto i1, auto J) { return i1 + 1 / (J * J) - 3; })},
+    {"NeoHookean", sheet(rbc::NeoHookean(2), [](auto i1, auto J) { return i1 + 1 / (J * J) - 3; })},
     {"MooneyRivlin", sheet(rbc::MooneyRivlin(30, 70, 0.01),
                            [](auto i1, auto J) {
                              return 0.3 * (i1 + 1 / (J * J) - 3) + 0.7 * (J * J + i1 / (J * J) - 3);
@@ -214,7 +214,8 @@ TEST_P(Tangent, OfAWavedSphere)
 
 TEST_P(Tangent, AtStretchThree)
 {
-  for (const Vec3 &stretch : {Vec3(3, 1 / std::sqrt(3), 1 / std::sqrt(3)), Vec3(3, 1, 1), Vec3(3, 3, 3)})
+  for (const Vec3 &stretch :
+       {Vec3(3, 1 / std::sqrt(3), 1 / std::sqrt(3)), Vec3(3, 1, 1), Vec3(3, 3, 3)})
     expect(sphere_, transformed(waved(sphere_.vertices, 2),
                                 [&](const Vec3 &x) { return Vec3(x.cwiseProduct(stretch)); }));
 }

@@ -250,7 +250,8 @@ TEST(Template, CornersShareATriangleByTheNearestPointOrHaveTheMiddlesOfAnObtuseO
     Mesh mesh{{random.vector(0, 1), random.vector(0, 1), random.vector(0, 1), random.vector(0, 1)},
               {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
     const Vertices &x = mesh.vertices;
-    if ((x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) > 0) std::swap(mesh.vertices[0], mesh.vertices[1]);
+    if ((x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) > 0)
+      std::swap(mesh.vertices[0], mesh.vertices[1]);
     const rbc::SurfaceTemplate shape = mesh.surface();
     for (std::size_t t = 0; t < 4; ++t) {
       const Vec3 corner[3] = {x[shape.triangles[t][0]], x[shape.triangles[t][1]],

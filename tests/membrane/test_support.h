@@ -300,7 +300,8 @@ inline std::map<std::string, rbc::MembraneParameters> each_energy()
   curved = flat;
   curved.spontaneous_curvature = -1.7;
   for (const char *name : {"bending, reference", "bending, c0 = 0", "bending, c0 = -1.7"})
-    (add(std::string(name) + ", dihedral") = sets.at(name)).bending_form = rbc::BendingForm::dihedral;
+    (add(std::string(name) + ", dihedral") = sets.at(name)).bending_form =
+        rbc::BendingForm::dihedral;
   add("local area").local_area = 4;
   add("global area").global_area = 4;
   add("volume").volume = 6;
