@@ -55,9 +55,13 @@ struct DiscForceError {
     }
     for (double *square : {&bands, &rms, &exact}) *square = std::sqrt(*square / total_area);
     rms_everywhere = std::sqrt(rms_everywhere);
+    if (errors.empty()) {    // a mesh of 162 vertices
+      rms = median = largest = bands = exact = NAN;
+      return;
+    }
     std::sort(errors.begin(), errors.end());
-    median = errors.empty() ? NAN : errors[errors.size() / 2];    // with 162 vertices none is left
-    largest = errors.empty() ? NAN : errors.back();
+    median = errors[errors.size() / 2];
+    largest = errors.back();
   }
 };
 
