@@ -200,8 +200,8 @@ class Tangent : public testing::TestWithParam<std::string> {
       largest_force = std::max(largest_force, force_at[v].norm());
       largest_product = std::max(largest_product, product[v].norm());
     }
-    EXPECT_LT(largest_difference(minus_force, gradient), 1e-11 * largest_force);
-    EXPECT_LT(largest_difference(difference, product), 1e-7 * largest_product);
+    EXPECT_LT(largest_difference(minus_force, gradient), 1e-13 * largest_force);
+    EXPECT_LT(largest_difference(difference, product), 2e-9 * largest_product);
   }
 
   const Mesh sphere_ = icosphere(2);
