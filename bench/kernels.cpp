@@ -3,13 +3,12 @@
 
 #include "coupling.h"
 #include "halo.h"
+#include "molecule_file.h"
 #include "stokes_solver.h"
 
 #include <benchmark/benchmark.h>
 
 #include <cmath>
-#include <fstream>
-#include <stdexcept>
 #include <string>
 
 namespace {
@@ -184,16 +183,9 @@ void solve(benchmark::State &state, const Index3 &cells, bool walls, double shif
 /// Vertices of a red cell about a point.
 std::vector<double> red_cell(const Vec3 &centre)
 {
-  std::ifstream file(POTENTIALS "/rbc_642.mol");
   std::vector<double> x;
-  std::string line;
-  while (std::getline(file, line) && line.rfind("Coords", 0) != 0) {
-  }
-  std::getline(file, line);
-  int id;
-  for (double a, b, c; file >> id >> a >> b >> c;)
-    x.insert(x.end(), {centre[0] + a, centre[1] + b, centre[2] + c});
-  if (x.empty()) throw std::runtime_error("no vertices in " POTENTIALS "/rbc_642.mol");
+  for (const auto &v : MoleculeFile(POTENTIALS "/rbc_642.mol").vertices)
+    x.insert(x.end(), {centre[0] + v[0], centre[1] + v[1], centre[2] + v[2]});
   return x;
 }
 

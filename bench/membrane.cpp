@@ -36,8 +36,8 @@ class Case {
       benchmark::ClobberMemory();
     }
     const double evaluations = static_cast<double>(state.iterations()) * shape_.size();
-    state.counters["vertex"] = benchmark::Counter(
-        evaluations, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters["vertex"] =
+        benchmark::Counter(evaluations, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   }
 
   SurfaceTemplate shape_;
@@ -51,9 +51,8 @@ void add(const std::string &name, const MembraneParameters &parameters, const Wo
 {
   for (int vertices : {642, 2562})
     benchmark::RegisterBenchmark(
-        (name + '/' + std::to_string(vertices)).c_str(), [=](benchmark::State &state) {
-          Case(vertices, parameters).time(state, work);
-        });
+        (name + '/' + std::to_string(vertices)).c_str(),
+        [=](benchmark::State &state) { Case(vertices, parameters).time(state, work); });
 }
 
 void add_all()
@@ -62,9 +61,10 @@ void add_all()
     c.model_.set_cell(c.all_, c.x_);
     benchmark::DoNotOptimize(c.model_.forces({}, c.f_));
   };
-  const std::pair<const char *, SheetLaw> laws[] = {{"mooney-rivlin", MooneyRivlin(0.257, 0.0257, 0.01)},
-                                                    {"neo-hookean", NeoHookean(5e-3)},
-                                                    {"skalak", Skalak(5e-3, 50)}};
+  const std::pair<const char *, SheetLaw> laws[] = {
+      {"mooney-rivlin", MooneyRivlin(0.257, 0.0257, 0.01)},
+      {"neo-hookean", NeoHookean(5e-3)},
+      {"skalak", Skalak(5e-3, 50)}};
   for (const auto &[name, law] : laws) {
     MembraneParameters parameters;
     parameters.law = law;

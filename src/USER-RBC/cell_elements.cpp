@@ -27,7 +27,7 @@ CellElements CellElements::part(const SurfaceTemplate &shape, std::vector<char> 
     if (touches(t, core)) some.triangles.push_back(t);
   some.loaded = std::stable_partition(some.triangles.begin(), some.triangles.end(),
                                       [&](int t) { return touches(t, owned); }) -
-      some.triangles.begin();
+                some.triangles.begin();
   for (int e = 0; e < static_cast<int>(shape.hinges.size()); ++e)
     if (core[shape.hinges[e].a] || core[shape.hinges[e].b]) some.hinges.push_back(e);
   some.owned = std::move(owned);

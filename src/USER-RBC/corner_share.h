@@ -12,8 +12,8 @@ namespace rbc {
 inline std::array<double, 3> mixed_corner_shares(const Vec3 &e1, const Vec3 &e2)
 {
   const double a = e1.squaredNorm(), b = e2.squaredNorm(), d = e1.dot(e2);
-  const std::array<double, 3> dot{d, a - d, b - d};               // of the edges out of each corner
-  const std::array<double, 3> facing{a + b - 2 * d, b, a};        // squared length
+  const std::array<double, 3> dot{d, a - d, b - d};           // of the edges out of each corner
+  const std::array<double, 3> facing{a + b - 2 * d, b, a};    // squared length
   for (int c = 0; c < 3; ++c)
     if (dot[c] < 0) {
       std::array<double, 3> shares{0.25, 0.25, 0.25};

@@ -290,7 +290,7 @@ void FixRBCIB::setup(int /*vflag*/)
 {
   fluid_fix->drive_at_setup();
   first_step = update->ntimestep;
-  unconverged = rejected = 0;
+  unconverged = rejected = motion->unconverged = 0;
   radius_step = -1;
   if (!fluid_fix->has_inertia())
     motion->update_velocities(Stage::START);
@@ -721,6 +721,13 @@ void FixRBCIB::post_run()
   utils::logmesg(lmp, text + costs);
   if (unconverged > 0)
     error->warning(FLERR, "Fix rbc/ib {} reached its maxiter of {} in {} steps", id,
+                   direct.max_solves, unconverged);
+  if (motion->unconverged > 0)
+    error->warning(FLERR, "Fix rbc/ib {} reached its maxiter of {} in {} evaluations", id,
+                   direct.max_solves, motion->unconverged);
+}
+reached its maxiter of {}
+in {} steps", id,
                    direct.max_solves, unconverged);
 }
 

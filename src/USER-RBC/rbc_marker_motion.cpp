@@ -162,12 +162,14 @@ void MarkerMotion::update_velocities(Stage stage)
   for (std::size_t i = 0; i < guess_.size(); ++i) residual_[i] -= guess_[i];
 
   correction_.assign(guess_.size(), 0.0);
-  gmres.solve(
+  const double allowed = tolerance * std::sqrt(fastest * count);
+  const double error = gmres.solve(
       [this](const Numbers &p, Numbers &result) {
         resistance(p, result);
         for (std::size_t i = 0; i < p.size(); ++i) result[i] += p[i];
       },
-      *this, residual_, tolerance * std::sqrt(fastest * count), correction_);
+      *this, residual_, allowed, correction_);
+  if (!(error <= allowed)) ++unconverged;
 
   store(forces_, atom->f);
   store(correction_, atom->v);

@@ -57,6 +57,7 @@ class MarkerMotion : protected Pointers, public rbc::Motion {
   /// Error allowed in the velocities where forces depend on them, relative to the fastest marker.
   double tolerance = 1e-4;
   rbc::Gmres gmres;
+  bigint unconverged = 0;    // evaluations
 
   rbc::Stopwatch spreading, solving, interpolating, exchanging;
   void reset_stopwatches();

@@ -51,7 +51,8 @@ class TriangleLoad {
   {
     const double p0 = by_angle0 / twice_area_, p1 = by_angle1 / twice_area_,
                  p2 = by_angle2 / twice_area_;
-    const double at1 = m11_ - m12_, at2 = m22_ - m12_;    // dot products of the edges at corners 1, 2
+    const double at1 = m11_ - m12_,
+                 at2 = m22_ - m12_;    // dot products of the edges at corners 1, 2
     n0_ += p0 * (at1 + at2) - p1 * at2 - p2 * at1;
     n1_ += p1 * m22_ - p2 * m12_ - p0 * at2;
     n2_ += p2 * m11_ - p0 * at1 - p1 * m12_;
@@ -66,19 +67,17 @@ class TriangleLoad {
     s22_ += by_length1 + by_length0;
   }
 
-  PlainVector corner0() const
-  {
-    return n0_ * normal_ + (s11_ + s12_) * e1_ + (s12_ + s22_) * e2_;
-  }
+  PlainVector corner0() const { return n0_ * normal_ + (s11_ + s12_) * e1_ + (s12_ + s22_) * e2_; }
   PlainVector corner1() const { return n1_ * normal_ - (s11_ * e1_ + s12_ * e2_); }
   PlainVector corner2() const { return n2_ * normal_ - (s12_ * e1_ + s22_ * e2_); }
 
  private:
   PlainVector e1_, e2_, normal_;
   double twice_area_;
-  double m11_, m12_, m22_;                 ///< metric
-  double s11_ = 0, s12_ = 0, s22_ = 0;     ///< in its plane: -s11 e1 - s12 e2 on corner 1, -s12 e1 - s22 e2 on 2
-  double n0_ = 0, n1_ = 0, n2_ = 0;        ///< along the normal, on each corner
+  double m11_, m12_, m22_;    ///< metric
+  double s11_ = 0, s12_ = 0,
+         s22_ = 0;    ///< in its plane: -s11 e1 - s12 e2 on corner 1, -s12 e1 - s22 e2 on 2
+  double n0_ = 0, n1_ = 0, n2_ = 0;    ///< along the normal, on each corner
 };
 
 }    // namespace rbc

@@ -12,8 +12,7 @@ template <typename Function>
 }
 
 /// Sum of f(n) for n < count, likewise.
-template <typename Function>
-[[gnu::always_inline]] inline double sum(int count, const Function &f)
+template <typename Function> [[gnu::always_inline]] inline double sum(int count, const Function &f)
 {
   double sum = 0;
 #pragma omp simd reduction(+ : sum)

@@ -182,13 +182,13 @@ inline Mesh cuboid(const Vec3 &size, int n)
   return welder.mesh;
 }
 
-inline std::vector<double> vertex_areas(const Mesh &mesh)
+/// By the corners' shares of the stress-free triangles.
+inline std::vector<double> vertex_areas(const rbc::SurfaceTemplate &shape)
 {
-  std::vector<double> areas(mesh.vertices.size());
-  for (const auto &[i, j, k] : mesh.triangles) {
-    const Vec3 e1 = mesh.vertices[j] - mesh.vertices[i], e2 = mesh.vertices[k] - mesh.vertices[i];
-    for (int v : {i, j, k}) areas[v] += e1.cross(e2).norm() / 6;
-  }
+  std::vector<double> areas(shape.size());
+  for (std::size_t t = 0; t < shape.triangles.size(); ++t)
+    for (int c = 0; c < 3; ++c)
+      areas[shape.triangles[t][c]] += shape.corner_share[c][t] * shape.reference[t].area;
   return areas;
 }
 
@@ -300,7 +300,8 @@ inline std::map<std::string, rbc::MembraneParameters> each_energy()
   curved = flat;
   curved.spontaneous_curvature = -1.7;
   for (const char *name : {"bending, reference", "bending, c0 = 0", "bending, c0 = -1.7"})
-    (add(std::string(name) + ", dihedral") = sets.at(name)).bending_form = rbc::BendingForm::dihedral;
+    (add(std::string(name) + ", dihedral") = sets.at(name)).bending_form =
+        rbc::BendingForm::dihedral;
   add("local area").local_area = 4;
   add("global area").global_area = 4;
   add("volume").volume = 6;

@@ -11,6 +11,7 @@ LAWS = {
     "mooney-rivlin": "mooney-rivlin 0.257 0.0257 0.01 bending 2.0e-3 area 0.01 0.01 volume 0.02",
     "skalak": "skalak 0.005 1 bending 2.0e-3 0.5 area 0.02 0 volume no",
     "neo-hookean": "neo-hookean 0.005",
+    "dihedral": "neo-hookean 0.005 bending 2.0e-3 dihedral -0.3 area 0 0.02",
 }
 
 # No fluid: atoms stay where they are put. The cell straddles an edge of the box and is out of shape.

@@ -1,0 +1,7 @@
+#!/usr/bin/env bash
+# Time of the membrane's forces on one core, alone and in runs of LAMMPS; prints a table and writes membrane.csv.
+. "$(dirname "$0")/../scripts/common.sh"
+
+"$ROOT/scripts/build.sh" 4Feb2025 membrane lmp_rbc
+"$BUILD/membrane" --benchmark_format=json --benchmark_repetitions=5 > "$BUILD/membrane.json"
+LMP_RBC=$BUILD/lmp_rbc "$PYTHON" "$ROOT/bench/membrane.py" "$BUILD/membrane.json"
