@@ -726,10 +726,6 @@ void FixRBCIB::post_run()
     error->warning(FLERR, "Fix rbc/ib {} reached its maxiter of {} in {} evaluations", id,
                    direct.max_solves, motion->unconverged);
 }
-reached its maxiter of {}
-in {} steps", id,
-                   direct.max_solves, unconverged);
-}
 
 /* ---------------------------------------------------------------------- */
 
