@@ -16,6 +16,7 @@
 #include "pair.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -140,7 +141,7 @@ void MarkerMotion::velocities_of_forces(Stage stage)
 
 void MarkerMotion::update_velocities(Stage stage)
 {
-  if (viscous_.empty()) {
+  if (viscous_.empty() || elastic_only_) {
     velocities_of_forces(stage);
     check_velocities();
     return;
@@ -183,6 +184,7 @@ void MarkerMotion::update_velocities(Stage stage)
 void MarkerMotion::velocity(const Numbers &x, double fraction, Numbers &v)
 {
   store(x, atom->x);
+  if (elastic_only_) std::fill(v.begin(), v.end(), 0.0);
   store(v, atom->v);
   check_positions();
   fluid_->drive_at(fraction);

@@ -46,6 +46,9 @@ class MarkerMotion : protected Pointers, public rbc::Motion {
   void velocity(const rbc::Numbers &x, double fraction, rbc::Numbers &v) override;
   void sum(double *values, int count) const override;
 
+  bool is_viscous() const { return !viscous_.empty(); }
+  void leave_out_viscosity(bool yes) { elastic_only_ = yes; }
+
   /// Atoms must not cross more fluid cells in a step; they must stay between plates.
   double courant = 1;
   void check_velocities() const;
@@ -71,6 +74,7 @@ class MarkerMotion : protected Pointers, public rbc::Motion {
   FixRBCFluid *fluid_ = nullptr;
   std::vector<FixRBCMembrane *> keepers_, viscous_;
   std::vector<int> members_;
+  bool elastic_only_ = false;
 
   rbc::Numbers guess_, forces_, residual_, correction_;
   rbc::Numbers applied_, response_;    // of all atoms here
