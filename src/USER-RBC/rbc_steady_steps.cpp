@@ -26,7 +26,7 @@ static constexpr double RADIUS_DISPLACEMENT = 1.0e-5;
 // third order: largest ratio of a timestep to the one before, parts of a step without a past
 
 static constexpr double LARGEST_GROWTH = 1.2;
-static constexpr int STARTING_PARTS = 16;
+static constexpr int STARTING_PARTS = 8;
 
 // smallest timestep over the largest
 
