@@ -1,269 +1,285 @@
 #!/usr/bin/python3
 """Write a cell template: a LAMMPS molecule file of a closed, oriented triangle mesh.
 
-The Coords are the stress-free shape, centred at 0; the Angles are the triangles, right-handed
-outward. Any frequency f >= 1 gives V = 10 f^2 + 2 vertices and 20 f^2 triangles.
+The Coords are the shape, centred at 0; the Angles are the triangles, right-handed outward. Shapes other than `mesh`
+have V = 10 f^2 + 2 vertices and 20 f^2 triangles for any frequency f >= 1.
 
-Lengths are in the unit of --radius or --diameter (um in `units micro`).
+Lengths are in the unit of --radius, --diameter or the mesh (um in `units micro`).
 
 Shapes
-  sphere  of radius R
-  disc    biconcave, axis along z: z = +-(R/2) sqrt(1 - x^2) (a0 + a1 x^2 + a2 x^4), x = r/R,
-          a0 = 0.207, a1 = 2.002, a2 = -1.122 (Evans and Fung, Microvasc Res 4, 335 (1972))
+  sphere    of radius R
+  disc      biconcave, axis along z: z = +-(R/2) sqrt(1 - x^2) (a0 + a1 x^2 + a2 x^4), x = r/R,
+            a0 = 0.207, a1 = 2.002, a2 = -1.122 (Evans and Fung, Microvasc Res 4, 335 (1972))
+  spheroid  axis along z, by the ratio of its axis to its diameter or by its reduced volume. With --like, of the
+            area, triangles and numbering of a disc or sphere: the stress-free shape of such a cell
+  sickle    ellipsoid bent along its long axis
+  mesh      a surface from an STL, PLY, OFF or VTP file, or another template
 
 Examples
   make_template.py disc --diameter 7.82 --frequency 8 --output rbc_642.mol
   make_template.py sphere --radius 1 --frequency 16 --output capsule_2562.mol
+  make_template.py spheroid --reduced-volume 0.95 --like rbc_642.mol --output rbc_642_spheroid95.mol
+  make_template.py mesh scan.stl --volume 94 --output scan.mol
 """
 import argparse
 import math
 import sys
-from collections import Counter
+from pathlib import Path
 
 import numpy as np
 
+import shapes
+import surface_mesh
+from molecule_file import read_molecule, write_molecule
+
 DATE = "2026-11-22"
-PROFILE = 0.207, 2.002, -1.122
 CITATION = {
     "disc": "Evans and Fung, Microvasc Res, 4, 335-347 (1972)",
     "sphere": "Wenninger, Spherical Models, Cambridge University Press (1979)",
+    "spheroid": "Wenninger, Spherical Models, Cambridge University Press (1979)",
+    "sickle": "Wenninger, Spherical Models, Cambridge University Press (1979)",
 }
 
 
-def icosahedron():
-    """Unit vertices (12, 3) and outward faces (20, 3); three of its two-fold axes are x, y, z."""
-    golden = (1 + math.sqrt(5)) / 2
-    corner = np.array([(0, s, t * golden) for s in (1, -1) for t in (1, -1)])
-    points = np.concatenate([np.roll(corner, k, axis=1) for k in range(3)])
-    close = ((points[:, None] - points) ** 2).sum(axis=2) < 5
-    faces = [(i, j, k) for i in range(12) for j in range(i + 1, 12) for k in range(j + 1, 12)
-             if close[i, j] and close[j, k] and close[k, i]]
-    outward = [np.linalg.det(points[list(face)]) > 0 for face in faces]
-    faces = [face if out else face[::-1] for face, out in zip(faces, outward)]
-    return points / math.sqrt(1 + golden * golden), faces
-
-
-def geodesic(frequency):
-    """Unit sphere: vertices (10 f^2 + 2, 3) and outward triangles (20 f^2, 3).
-
-    A point with barycentric counts i + j + k = f of face (a, b, c) is the direction of
-    sin(i w/f) a + sin(j w/f) b + sin(k w/f) c, with w the angle of an icosahedral edge: equal
-    steps along the edges, and triangle areas within a factor 1.2 of each other.
-    """
-    corners, faces = icosahedron()
-    edge_angle = math.atan(2)
-    # Rounded, so that every machine's sine gives the same file; the projection makes it exact.
-    weight = [round(math.sin(edge_angle * i / frequency), 12) for i in range(frequency + 1)]
-    index, points, triangles = {}, [], []
-
-    def vertex(face, counts):
-        key = tuple(sorted((corner, n) for corner, n in zip(face, counts) if n))
-        if key not in index:
-            index[key] = len(points)
-            points.append(sum(weight[n] * corners[corner] for corner, n in key))
-        return index[key]
-
-    for face in faces:
-        row = [[vertex(face, (frequency - i, i - j, j)) for j in range(i + 1)]
-               for i in range(frequency + 1)]
-        for i in range(frequency):
-            triangles += [(row[i][j], row[i + 1][j], row[i + 1][j + 1]) for j in range(i + 1)]
-            triangles += [(row[i][j], row[i + 1][j + 1], row[i][j + 1]) for j in range(i)]
-    points = np.array(points)
-    return points / np.sqrt((points ** 2).sum(axis=1))[:, None], np.array(triangles)
-
-
-def half_thickness(x):
-    """Half thickness over R of the biconcave disc at x = r/R."""
-    a0, a1, a2 = PROFILE
-    square = x * x
-    return 0.5 * np.sqrt((1 - x) * (1 + x)) * (a0 + square * (a1 + square * a2))
-
-
-def disc(points):
-    """Map the unit sphere to the biconcave disc of R = 1.
-
-    Latitude becomes arc length along the profile, in proportion: of the maps tried (equal area,
-    conformal, same r), the one with the most even edges (table in README.md).
-    """
-    phi = np.linspace(0, np.pi / 2, 20001)
-    profile = np.stack([np.sin(phi), half_thickness(np.sin(phi))])
-    arc = np.append(0, np.cumsum(np.sqrt((np.diff(profile) ** 2).sum(axis=0))))
-    rho = np.sqrt((points[:, :2] ** 2).sum(axis=1))
-    polar = np.arctan2(rho, np.abs(points[:, 2]))
-    # Rounded as above: where on the profile a vertex sits may vary, that it sits on it may not.
-    x = np.round(np.sin(np.interp(polar * (2 / np.pi) * arc[-1], arc, phi)), 9)
-    direction = points[:, :2] / np.where(rho > 0, rho, 1)[:, None]
-    return np.column_stack([x[:, None] * direction, np.copysign(half_thickness(x), points[:, 2])])
-
-
-def hilbert_order(points, bits=16):
-    """Order of the points along a Hilbert curve (Skilling, AIP Conf Proc 707, 381 (2004))."""
-    low = points.min(axis=0)
-    # The odd offset keeps mirror planes off the cell faces.
-    scaled = (points - low) / (points - low).max() * 0.97 + 0.0123
-    cell = (scaled * (1 << bits)).astype(np.int64).T
-    for b in range(bits - 1, 0, -1):
-        bit, below = 1 << b, (1 << b) - 1
-        for i in range(3):
-            swap = np.where(cell[i] & bit, 0, (cell[0] ^ cell[i]) & below)
-            cell[0] ^= np.where(cell[i] & bit, below, swap)
-            cell[i] ^= swap
-    cell[1] ^= cell[0]
-    cell[2] ^= cell[1]
-    flip = np.zeros_like(cell[0])
-    for b in range(bits - 1, 0, -1):
-        flip ^= np.where(cell[2] & (1 << b), (1 << b) - 1, 0)
-    cell ^= flip
-    key = np.zeros_like(flip)
-    for b in range(bits - 1, -1, -1):
-        for i in range(3):
-            key = key << 1 | (cell[i] >> b & 1)
-    return np.argsort(key, kind="stable")
-
-
-def reorder(points, triangles):
-    """Number the vertices along a Hilbert curve, and the triangles by their lowest vertex."""
-    order = hilbert_order(points)
-    rank = np.empty(len(order), dtype=int)
-    rank[order] = np.arange(len(order))
-    triangles = rank[triangles]
-    first = triangles.argmin(axis=1)[:, None]
-    triangles = np.take_along_axis(triangles, (first + np.arange(3)) % 3, axis=1)
-    return points[order], triangles[np.lexsort(triangles.T[::-1])]
-
-
-def exact(shape, radius):
-    """Area and volume of the smooth surface."""
-    if shape == "sphere":
-        return 4 * math.pi * radius ** 2, 4 / 3 * math.pi * radius ** 3
-    a0, a1, a2 = PROFILE
-    node, weight = np.polynomial.legendre.leggauss(200)
-    phi, weight = np.pi / 4 * (node + 1), np.pi / 4 * weight
-    r, cosine = np.sin(phi), np.cos(phi)
-    shape_factor = 0.5 * (a0 + a1 * r ** 2 + a2 * r ** 4)
-    slope = -r * shape_factor + cosine ** 2 * (a1 * r + 2 * a2 * r ** 3)
-    area = 4 * np.pi * (weight * r * np.hypot(cosine, slope)).sum()
-    volume = 4 * np.pi * (weight * r * cosine ** 2 * shape_factor).sum()
-    return area * radius ** 2, volume * radius ** 3
-
-
-def enclosed_volume(points, triangles):
-    """Signed volume; positive when the triangles are right-handed outward."""
-    a, b, c = points[triangles].transpose(1, 0, 2)
-    return np.einsum("ij,ij->", a, np.cross(b, c)) / 6
-
-
-def check(points, triangles):
-    """Raise ValueError unless the mesh is a closed, outward oriented sphere."""
-    count = Counter(map(tuple, np.concatenate([triangles[:, [i, (i + 1) % 3]] for i in range(3)])))
-    if any(n != 1 or count[edge[::-1]] != 1 for edge, n in count.items()):
-        raise ValueError("the surface is not closed and consistently oriented")
-    euler = len(points) - len(count) // 2 + len(triangles)
-    if euler != 2:
-        raise ValueError(f"Euler characteristic is {euler}, not 2")
-    if enclosed_volume(points, triangles) <= 0:
-        raise ValueError("the triangles point inward")
-
-
-def measure(points, triangles):
-    """Area, volume, edge lengths, angles (degrees) and area ratio of a mesh."""
-    corner = points[triangles]
-    edge = np.roll(corner, -1, axis=1) - corner
-    length = np.linalg.norm(edge, axis=2)
-    cosine = -(edge * np.roll(edge, 1, axis=1)).sum(axis=2) / (length * np.roll(length, 1, axis=1))
-    angle = np.degrees(np.arccos(cosine))
-    area = np.linalg.norm(np.cross(edge[:, 0], edge[:, 1]), axis=1) / 2
-    return {"area": area.sum(), "volume": enclosed_volume(points, triangles),
-            "edge": (length.min(), length.mean(), length.max()),
-            "angle": (angle.min(), angle.max()), "area_ratio": area.max() / area.min()}
+def numbered(shape, points, triangles):
+    """Points and triangles along a Hilbert curve of `shape`, another surface of the same triangles."""
+    order = surface_mesh.hilbert_order(shape)
+    return points[order], surface_mesh.renumber(order, triangles)
 
 
 def template(shape, frequency, radius, match_volume=False):
-    """Checked vertices and triangles of a template, in file order."""
-    points, triangles = geodesic(frequency)
+    """Checked vertices and triangles of a sphere or disc, in file order."""
+    points, triangles = shapes.geodesic(frequency)
     if shape == "disc":
-        points = disc(points)
-    points, triangles = reorder(points * radius, triangles)
+        points = shapes.disc(points)
+    points, triangles = numbered(points * radius, points * radius, triangles)
     points += 0.0  # no negative zeros
-    check(points, triangles)
+    surface_mesh.check(points, triangles)
     if match_volume:
-        points *= (exact(shape, radius)[1] / enclosed_volume(points, triangles)) ** (1 / 3)
+        volume = surface_mesh.enclosed_volume(points, triangles)
+        points *= (exact(shape, radius)[1] / volume) ** (1 / 3)
     return points, triangles
 
 
-def write_molecule(stream, title, points, triangles):
-    """Write a LAMMPS molecule file; title holds its leading comment lines."""
-    def section(name, rows):
-        stream.write(f"\n{name}\n\n")
-        stream.writelines(f"{i} {row}\n" for i, row in enumerate(rows, 1))
-
-    stream.writelines(f"# {line}\n" for line in title)
-    stream.write(f"\n{len(points)} atoms\n{len(triangles)} angles\n")
-    section("Coords", ("{: .15e} {: .15e} {: .15e}".format(*point) for point in points))
-    section("Types", ("1" for _ in points))
-    section("Angles", ("1 {} {} {}".format(*triangle) for triangle in triangles + 1))
+def exact(shape, radius):
+    """Area and volume of the smooth sphere or disc."""
+    return shapes.disc_size(radius) if shape == "disc" else shapes.spheroid_size(1, radius)
 
 
-def report(stream, points, triangles, smooth):
+def recognised(path):
+    """Shape and frequency of a template that is a sphere or disc of this script; its points and triangles."""
+    points, triangles = read_molecule(path)
+    frequency = max(1, math.isqrt(len(points) // 10))
+    radius = np.linalg.norm(points[:, :2], axis=1).max()
+    for shape in ("disc", "sphere"):
+        made, made_triangles = template(shape, frequency, radius)
+        if (made.shape == points.shape and triangles.shape == made_triangles.shape
+                and (triangles == made_triangles).all() and np.abs(points - made).max() < 1e-6 * radius):
+            return shape, frequency, points, triangles
+    raise ValueError("is not a disc or sphere of this script")
+
+
+def spheroid(axis_ratio, frequency, area=None, diameter=None):
+    """Vertices and triangles of a spheroid, numbered as the sphere; its radius."""
+    sphere, triangles = shapes.geodesic(frequency)
+    points, triangles = numbered(sphere, shapes.revolved(sphere, shapes.spheroid_height(axis_ratio)), triangles)
+    radius = diameter / 2 if diameter else scale_to(area, points, triangles)
+    return points * radius, triangles, radius
+
+
+def spheroid_like(path, axis_ratio):
+    """The same with area, triangles and numbering of a template."""
+    like, frequency, points, triangles = recognised(path)
+    area = surface_mesh.measure(points, triangles)["area"]
+    sphere, triangles = shapes.geodesic(frequency)
+    shape, height = (shapes.disc(sphere), shapes.disc_height) if like == "disc" else (
+        sphere, shapes.spheroid_height(1))
+    points = shapes.revolved(sphere, shapes.spheroid_height(axis_ratio), caps=height)
+    points, triangles = numbered(shape, points, triangles)
+    radius = scale_to(area, points, triangles)
+    return points * radius, triangles, radius
+
+
+def scale_to(area, points, triangles):
+    """Factor that gives the mesh an area; rounded, so that every machine's sum gives the same file."""
+    return round(math.sqrt(area / surface_mesh.measure(points, triangles)["area"]), 12)
+
+
+def mesh(path, scale=None, area=None, volume=None, size=None):
+    """Checked vertices and triangles of a file, centred, along a Hilbert curve."""
+    if Path(path).suffix == ".mol":
+        points, triangles = read_molecule(path)
+    else:
+        from mesh_io import read_surface
+        points, triangles = read_surface(path)
+    points = points - points.mean(axis=0)  # far from 0 the volume drowns in round-off
+    if surface_mesh.enclosed_volume(points, triangles) < 0:
+        triangles = triangles[:, ::-1]
+        sys.stderr.write(f"{Path(path).name}: the triangles pointed inward; they were turned outward\n")
+    surface_mesh.check(points, triangles)
+    points -= surface_mesh.centre_of_volume(points, triangles)
+    found = surface_mesh.measure(points, triangles)
+    points *= (scale if scale else math.sqrt(area / found["area"]) if area else
+               (volume / found["volume"]) ** (1 / 3) if volume else
+               size / np.ptp(points, axis=0).max() if size else 1)
+    return numbered(points, points, triangles)
+
+
+def report(stream, points, triangles, smooth=(None, None)):
     """Print sizes, mesh quality and the difference from the smooth surface."""
-    found = measure(points, triangles)
+    found = surface_mesh.measure(points, triangles)
     lines = [f"vertices      {len(points)}", f"triangles     {len(triangles)}"]
     for name, value in zip(("area", "volume"), smooth):
-        lines.append(f"{name:13} {found[name]:.8g}  smooth {value:.8g}"
-                     f"  ({100 * (found[name] / value - 1):+.4f} %)")
-    lines += ["edge length   min {:.5g}  mean {:.5g}  max {:.5g}".format(*found["edge"]),
+        lines.append(f"{name:13} {found[name]:.8g}" + (
+            f"  smooth {value:.8g}  ({100 * (found[name] / value - 1):+.4f} %)" if value else ""))
+    lines += [f"reduced vol.  {shapes.reduced_volume(found['area'], found['volume']):.6g}",
+              "extent        {:.5g} x {:.5g} x {:.5g}".format(*np.ptp(points, axis=0)),
+              "edge length   min {:.5g}  mean {:.5g}  max {:.5g}".format(*found["edge"]),
               "angle         min {:.2f}  max {:.2f} degrees".format(*found["angle"]),
               f"triangle area max/min {found['area_ratio']:.3f}",
-              f"centroid      {np.abs(points.mean(axis=0)).max():.1e} from 0",
+              "centre        {:.1e} from 0".format(
+                  np.linalg.norm(surface_mesh.centre_of_volume(points, triangles))),
               "closed, oriented outward, Euler characteristic 2"]
     stream.write("\n".join(lines) + "\n")
 
 
-def number(kind, lowest):
-    """Argument type: a finite number of a kind that is at least (int) or above (float) lowest."""
+def number(kind, lowest, highest=math.inf):
+    """Argument type: a finite number of a kind, at least (int) or above (float) lowest, at most highest."""
     def convert(text):
         value = kind(text)
-        if not math.isfinite(value) or value < lowest or (kind is float and value == lowest):
+        if not math.isfinite(value) or value < lowest or (kind is float and value == lowest) or value > highest:
             raise ValueError
         return value
-    convert.__name__ = f"{kind.__name__} {'>=' if kind is int else '>'} {lowest}"
+    convert.__name__ = f"{kind.__name__} {'>=' if kind is int else '>'} {lowest}" + (
+        f" and <= {highest}" if highest < math.inf else "")
     return convert
 
 
+POSITIVE = number(float, 0)
+
+
 def parse(arguments):
-    common = argparse.ArgumentParser(add_help=False)
-    common.add_argument("-f", "--frequency", type=number(int, 1), required=True, metavar="F",
-                        help="edges per icosahedral edge: 10 F^2 + 2 vertices")
-    common.add_argument("--match-volume", action="store_true",
+    files = argparse.ArgumentParser(add_help=False)
+    files.add_argument("-o", "--output", metavar="FILE", help="molecule file (default: none)")
+    files.add_argument("--surface", metavar="FILE", help="the same surface as .stl, .ply, .off or .vtp")
+    files.add_argument("--citation", metavar="TEXT", help="where the shape comes from, for the file's first line")
+    geodesic = argparse.ArgumentParser(add_help=False)
+    frequency = dict(type=number(int, 1), metavar="F", help="edges per icosahedral edge: 10 F^2 + 2 vertices")
+    geodesic.add_argument("-f", "--frequency", required=True, **frequency)
+    smooth = argparse.ArgumentParser(add_help=False)
+    smooth.add_argument("--match-volume", action="store_true",
                         help="scale so that the polyhedron has the smooth shape's volume")
-    common.add_argument("-o", "--output", metavar="FILE", help="molecule file (default: none)")
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    shapes = parser.add_subparsers(dest="shape", required=True)
-    shapes.add_parser("sphere", parents=[common], help="sphere").add_argument(
-        "--radius", type=number(float, 0), default=1.0, help="radius (default 1)")
-    shapes.add_parser("disc", parents=[common], help="biconcave disc").add_argument(
-        "--diameter", type=number(float, 0), default=7.82, help="diameter (default 7.82)")
-    return parser.parse_args(arguments)
+    shape = parser.add_subparsers(dest="shape", required=True)
+    shape.add_parser("sphere", parents=[geodesic, smooth, files], help="sphere").add_argument(
+        "--radius", type=POSITIVE, default=1.0, help="radius (default 1)")
+    shape.add_parser("disc", parents=[geodesic, smooth, files], help="biconcave disc").add_argument(
+        "--diameter", type=POSITIVE, default=7.82, help="diameter (default 7.82)")
+
+    of = shape.add_parser("spheroid", parents=[files], help="oblate or prolate spheroid")
+    form = of.add_mutually_exclusive_group(required=True)
+    form.add_argument("--axis-ratio", type=POSITIVE, metavar="Q",
+                      help="length of the axis over the diameter across it: below 1 oblate, above prolate")
+    form.add_argument("--reduced-volume", type=number(float, 0, 1), metavar="V",
+                      help="volume over that of the sphere of the same area; oblate")
+    of.add_argument("--prolate", action="store_true", help="the prolate one of that reduced volume")
+    size = of.add_mutually_exclusive_group(required=True)
+    size.add_argument("--area", type=POSITIVE, metavar="A", help="area of the polyhedron")
+    size.add_argument("--diameter", type=POSITIVE, metavar="D", help="diameter across the axis")
+    size.add_argument("--like", metavar="FILE",
+                      help="template of a disc or sphere, with whose area, triangles and order of vertices")
+    of.add_argument("-f", "--frequency", **frequency)
+
+    of_sickle = shape.add_parser("sickle", parents=[geodesic, files], help="ellipsoid bent along its long axis")
+    for name, default in (("length", 15.0), ("width", 4.0), ("thickness", 3.0)):
+        of_sickle.add_argument("--" + name, type=POSITIVE, default=default,
+                               help=f"axis of the ellipsoid (default {default:g})")
+    of_sickle.add_argument("--bend", type=number(float, 0, 300), default=90.0,
+                           help="angle of the arc of the long axis, degrees (default 90)")
+
+    of_mesh = shape.add_parser("mesh", parents=[files], help="a surface from a file")
+    of_mesh.add_argument("file", help=".stl, .ply, .off, .vtp or .mol")
+    scale = of_mesh.add_mutually_exclusive_group()
+    scale.add_argument("--scale", type=POSITIVE, metavar="S", help="factor on all lengths")
+    scale.add_argument("--area", type=POSITIVE, metavar="A", help="scale to this area")
+    scale.add_argument("--volume", type=POSITIVE, metavar="V", help="scale to this volume")
+    scale.add_argument("--size", type=POSITIVE, metavar="D", help="scale to this longest side along x, y or z")
+
+    args = parser.parse_args(arguments)
+    if args.shape == "spheroid":
+        if args.like and args.frequency:
+            parser.error("spheroid --like takes the frequency from the template: leave out --frequency")
+        if not args.like and not args.frequency:
+            parser.error("spheroid needs --frequency")
+        if args.prolate and args.axis_ratio:
+            parser.error("spheroid --prolate goes with --reduced-volume")
+    if args.shape == "sickle" and args.width * math.radians(args.bend) >= 2 * args.length:
+        parser.error("sickle is bent so far that its inner side folds: lower --bend or --width")
+    return args
+
+
+def build(args):
+    """Points, triangles and the smooth area and volume, where known, of what was asked for."""
+    if args.shape == "mesh":
+        return *mesh(args.file, args.scale, args.area, args.volume, args.size), (None, None)
+    if args.shape == "spheroid":
+        ratio = args.axis_ratio or shapes.axis_ratio_of(args.reduced_volume, args.prolate)
+        points, triangles, radius = (spheroid_like(args.like, ratio) if args.like else
+                                     spheroid(ratio, args.frequency, args.area, args.diameter))
+        smooth = shapes.spheroid_size(ratio, radius)
+    elif args.shape == "sickle":
+        sphere, triangles = shapes.geodesic(args.frequency)
+        points = shapes.sickle(sphere, args.length, args.width, args.thickness, math.radians(args.bend))
+        points, triangles = numbered(sphere, points, triangles)
+        points -= surface_mesh.centre_of_volume(points, triangles)
+        smooth = None, math.pi / 6 * args.length * args.width * args.thickness
+    else:
+        radius = args.radius if args.shape == "sphere" else args.diameter / 2
+        return *template(args.shape, args.frequency, radius, args.match_volume), exact(args.shape, radius)
+    points += 0.0  # no negative zeros
+    surface_mesh.check(points, triangles)
+    return points, triangles, smooth
+
+
+def command(args):
+    """The command that makes the file, with names of files but not their folders."""
+    words = [args.shape] + ([Path(args.file).name] if args.shape == "mesh" else [])
+    for name in ("radius", "diameter", "axis_ratio", "reduced_volume", "prolate", "like", "length", "width",
+                 "thickness", "bend", "scale", "area", "volume", "size", "frequency", "match_volume"):
+        value = getattr(args, name, None)
+        if value is None or value is False:
+            continue
+        words.append("--" + name.replace("_", "-"))
+        if value is not True:
+            words.append(Path(value).name if name == "like" else f"{value:.12g}")
+    return " ".join(words)
+
+
+def title(args, smooth):
+    """First lines of the molecule file."""
+    citation = args.citation or CITATION.get(args.shape) or f"surface {Path(args.file).name}"
+    lines = [f"DATE: {DATE} UNITS: micro CONTRIBUTOR: USER-RBC CITATION: {citation}",
+             f"make_template.py {command(args)}"]
+    known = ["{} {:.8g}".format(name, value) for name, value in zip(("area", "volume"), smooth) if value]
+    return lines + (["smooth surface: " + ", ".join(known)] if known else [])
 
 
 def main(arguments=None):
     args = parse(arguments)
-    radius = args.radius if args.shape == "sphere" else args.diameter / 2
-    points, triangles = template(args.shape, args.frequency, radius, args.match_volume)
-    smooth = exact(args.shape, radius)
-    report(sys.stdout, points, triangles, smooth)
-    if args.output:
-        size = f"--radius {radius:g}" if args.shape == "sphere" else f"--diameter {2 * radius:g}"
-        command = f"{args.shape} {size} --frequency {args.frequency}"
-        command += " --match-volume" if args.match_volume else ""
-        title = [f"DATE: {DATE} UNITS: micro CONTRIBUTOR: USER-RBC "
-                 f"CITATION: {CITATION[args.shape]}",
-                 f"make_template.py {command}",
-                 "smooth surface: area {:.8g}, volume {:.8g}".format(*smooth)]
-        with open(args.output, "w", encoding="ascii") as stream:
-            write_molecule(stream, title, points, triangles)
+    try:
+        points, triangles, smooth = build(args)
+        report(sys.stdout, points, triangles, smooth)
+        if args.output:
+            with open(args.output, "w", encoding="ascii") as stream:
+                write_molecule(stream, title(args, smooth), points, triangles)
+        if args.surface:
+            from mesh_io import write_surface
+            write_surface(args.surface, points, triangles)
+    except (ValueError, OSError) as problem:
+        source = getattr(args, "file", None) or getattr(args, "like", None)
+        raise SystemExit(f"make_template.py {args.shape}: " + (f"{source}: " if source else "")
+                         + str(problem)) from None
 
 
 if __name__ == "__main__":

@@ -323,7 +323,7 @@ void FixRBCIB::step_fluid()
     solving.start();
     couple_masses();
     solving.stop();
-    for (FixRBCMembrane *membrane : keepers) membrane->keep_volume(update->dt, true);
+    for (FixRBCMembrane *membrane : keepers) membrane->keep_volume(update->dt, true, true);
     check_velocities();
   }
   solving.start();
@@ -364,7 +364,9 @@ void FixRBCIB::interpolate(Stage stage)
   flow.interpolate(kernel, markers(), rows(atom->x), rows(atom->v));
   interpolating.stop();
 
-  for (FixRBCMembrane *membrane : keepers) membrane->keep_volume(update->dt, stage == Stage::START);
+  const bool mid_step = stage == Stage::MIDDLE || fluid_fix->has_inertia();
+  for (FixRBCMembrane *membrane : keepers)
+    membrane->keep_volume(update->dt, stage == Stage::START, mid_step);
   check_velocities();
 }
 

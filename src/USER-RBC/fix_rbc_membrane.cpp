@@ -34,6 +34,8 @@ FixRBCMembrane::FixRBCMembrane(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, nar
   if (narg < 5) utils::missing_cmd_args(FLERR, "fix rbc/membrane", error);
   surface = make_cell_template(lmp, arg[3], "fix rbc/membrane");
   model = std::make_unique<rbc::MembraneModel>(*surface, parse(narg, arg));
+  model->set_rest_volume(swelling.now() * surface->volume);
+  restart_global = swelling.varies() ? 1 : 0;
   cells =
       std::make_unique<LocalCells>(lmp, *surface, groupbit, fmt::format("Fix rbc/membrane {}", id));
   x.resize(surface->size());
@@ -116,10 +118,23 @@ rbc::MembraneParameters FixRBCMembrane::parse(int narg, char **arg)
         parameters.volume = not_negative(iarg + 1, keyword);
       }
       iarg += 2;
+    } else if (keyword == "swell") {
+      need(1, keyword);
+      swelling = Swelling(lmp, arg[iarg + 1]);
+      if (!swelling.varies()) positive(iarg + 1, keyword);
+      iarg += 2;
+    } else if (keyword == "stress-free") {
+      need(1, keyword);
+      take_stress_free_shape(lmp, *surface, arg[3], arg[iarg + 1], "fix rbc/membrane");
+      iarg += 2;
     } else
-      error->all(FLERR, iarg, "Unknown fix rbc/membrane keyword {}; allowed: bending, area, volume",
+      error->all(FLERR, iarg,
+                 "Unknown fix rbc/membrane keyword {}; allowed: bending, area, volume, swell, "
+                 "stress-free",
                  keyword);
   }
+  if ((swelling.varies() || swelling.now() != 1) && !volume_kept && parameters.volume == 0)
+    error->all(FLERR, "Fix rbc/membrane swell needs volume yes or a modulus of the volume");
   return parameters;
 }
 
@@ -139,6 +154,7 @@ void FixRBCMembrane::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix rbc/membrane cannot be used with run_style respa");
   if (update->whichflag == 2) error->all(FLERR, "Fix rbc/membrane cannot be used with minimize");
+  swelling.check(lmp, "fix rbc/membrane swell");
   cells->find();
   for (Fix *other : modify->get_fix_by_style("^rbc/membrane$")) {
     if (other == this) break;
@@ -189,6 +205,7 @@ void FixRBCMembrane::post_neighbor()
 
 void FixRBCMembrane::setup(int vflag)
 {
+  update_swelling(true);
   post_force(vflag);
 }
 
@@ -196,10 +213,23 @@ void FixRBCMembrane::post_force(int vflag)
 {
   stopwatch.start();
   v_init(vflag);
+  update_swelling(false);
   const bool measure = model->needs_size() || neighbor->ago == 0;
   if (measure) measure_cells();
   add_forces();
   stopwatch.stop();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCMembrane::update_swelling(bool new_run)
+{
+  if (!swelling.varies()) return;
+  swelling.update(lmp, new_run);
+  if (!std::isfinite(swelling.now()) || swelling.now() <= 0)
+    error->all(FLERR, "Fix rbc/membrane {}: swell is {} at step {}; it must be > 0", id,
+               swelling.now(), update->ntimestep);
+  model->set_rest_volume(swelling.now() * surface->volume);
 }
 
 /* ----------------------------------------------------------------------
@@ -258,14 +288,19 @@ void FixRBCMembrane::add_forces()
 
 /* ----------------------------------------------------------------------
    subtracts from the velocities the part along the volume gradient, so that
-     sum_i dV/dx_i . v_i = (V_template - V) / (VOLUME_STEPS dt)
+     sum_i dV/dx_i . v_i = (V_rest - V) / (VOLUME_STEPS dt) + dV_rest/dt
    the gradients of a closed surface sum to zero and exert no torque: neither the cell's velocity nor its rotation
-   changes. The evaluation at the start of a step (new_step) sets the rate that the stages after it keep.
+   changes. The evaluation at the start of a step (new_step) sets the first rate, which the stages after it keep. Where the
+   positions are those in the middle of a step (mid_step), so is the rest volume; it changes as over that step, or, at
+   its start, as over the last.
 ------------------------------------------------------------------------- */
 
-void FixRBCMembrane::keep_volume(double dt, bool new_step)
+void FixRBCMembrane::keep_volume(double dt, bool new_step, bool mid_step)
 {
   stopwatch.start();
+  update_swelling(false);
+  const double rest = (mid_step ? swelling.middle() : swelling.now()) * surface->volume;
+  const double rest_rate = swelling.change() * surface->volume / dt;
   double **const v = atom->v;
   const int size = surface->size();
   const auto &local = cells->cells();
@@ -287,8 +322,8 @@ void FixRBCMembrane::keep_volume(double dt, bool new_step)
   for (std::size_t c = 0; c < local.size(); ++c) {
     const LocalCells::Cell &cell = local[c];
     if (!(sums[3 * c + 2] > 0)) stop(cell, "the cell turned inside out");
-    if (new_step) volume_rates[c] = (surface->volume - sums[3 * c + 2]) / (VOLUME_STEPS * dt);
-    const double factor = (volume_rates[c] - sums[3 * c]) / sums[3 * c + 1];
+    if (new_step) volume_rates[c] = (rest - sums[3 * c + 2]) / (VOLUME_STEPS * dt);
+    const double factor = (volume_rates[c] + rest_rate - sums[3 * c]) / sums[3 * c + 1];
     const Vec3 *const gradient = &volume_gradient[c * size];
     for (int i = 0; i < size; ++i) {
       if (!cell.elements->owned[i]) continue;
@@ -332,6 +367,21 @@ double FixRBCMembrane::compute_vector(int n)
   const rbc::MembraneEnergy &parts = total_energy();
   const double part[4] = {parts.sheet, parts.bending, parts.area, parts.volume};
   return part[n];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCMembrane::write_restart(FILE *fp)
+{
+  if (comm->me != 0) return;
+  const int size = sizeof(Swelling::State);
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(&swelling.state, size, 1, fp);
+}
+
+void FixRBCMembrane::restart(char *buffer)
+{
+  if (swelling.varies()) memcpy(&swelling.state, buffer, sizeof(Swelling::State));
 }
 
 /* ---------------------------------------------------------------------- */

@@ -9,6 +9,7 @@ FixStyle(rbc/membrane,FixRBCMembrane);
 
 #include "fix.h"
 #include "rbc_local_cells.h"
+#include "rbc_swelling.h"
 #include "stopwatch.h"
 
 #include <memory>
@@ -28,11 +29,13 @@ class FixRBCMembrane : public Fix {
   double compute_scalar() override;
   double compute_vector(int) override;
   double memory_usage() override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
 
   // used by fix rbc/ib: takes from the velocities what would change the cells' volumes
 
   bool keeps_volume() const { return volume_kept; }
-  void keep_volume(double dt, bool new_step);
+  void keep_volume(double dt, bool new_step, bool mid_step);
 
   // used by computes and output of whole cells
 
@@ -47,6 +50,7 @@ class FixRBCMembrane : public Fix {
   std::unique_ptr<rbc::MembraneModel> model;
   std::unique_ptr<LocalCells> cells;
   bool volume_kept = true;
+  Swelling swelling;
   double ghost_cutoff = 0;    // that this fix asked for
 
   std::vector<rbc::Vec3> x, f;
@@ -58,6 +62,7 @@ class FixRBCMembrane : public Fix {
 
   rbc::MembraneParameters parse(int, char **);
   double reach() const;
+  void update_swelling(bool new_run);
   void measure_cells();
   void add_forces();
   [[noreturn]] void stop(const LocalCells::Cell &, const std::string &);

@@ -41,9 +41,10 @@ CellElements CellElements::part(const SurfaceTemplate &shape, std::vector<char> 
 }
 
 MembraneModel::MembraneModel(const SurfaceTemplate &shape, const MembraneParameters &parameters) :
-    shape_(shape), parameters_(parameters), triangles_(shape.triangles.size()),
-    vertex_area_(shape.size()), vertex_curvature_(shape.size()), angle_(shape.hinges.size()),
-    length_(shape.hinges.size()), vertex_tension_(shape.size()), folded_(shape.triangles.size())
+    shape_(shape), parameters_(parameters), rest_volume_(shape.volume),
+    triangles_(shape.triangles.size()), vertex_area_(shape.size()), vertex_curvature_(shape.size()),
+    angle_(shape.hinges.size()), length_(shape.hinges.size()), vertex_tension_(shape.size()),
+    folded_(shape.triangles.size())
 {
 }
 
@@ -178,11 +179,11 @@ MembraneEnergy MembraneModel::stretch(const Law &law, const CellElements &elemen
 
   // The penalties of a whole cell are counted by the rank that owns its first vertex.
   if (elements.owned[0]) {
-    const double volume_strain = (size.volume - shape_.volume) / shape_.volume;
+    const double volume_strain = (size.volume - rest_volume_) / rest_volume_;
     if (parameters_.global_area > 0)
       energy.area += parameters_.global_area / 2 * global_strain * global_strain * shape_.area;
     if (parameters_.volume > 0)
-      energy.volume = parameters_.volume / 2 * volume_strain * volume_strain * shape_.volume;
+      energy.volume = parameters_.volume / 2 * volume_strain * volume_strain * rest_volume_;
   }
   return energy;
 }
@@ -191,7 +192,7 @@ MembraneEnergy MembraneModel::stretch(const Law &law, const CellElements &elemen
 double MembraneModel::volume_stress(const CellSize &size) const
 {
   if (parameters_.volume <= 0) return 0;
-  return -parameters_.volume * (size.volume - shape_.volume) / shape_.volume;
+  return -parameters_.volume * (size.volume - rest_volume_) / rest_volume_;
 }
 
 int MembraneModel::find_inverted(const CellElements &elements, const std::vector<Vec3> &x)

@@ -53,6 +53,9 @@ class MembraneModel {
 
   const MembraneParameters &parameters() const { return parameters_; }
 
+  /// The volume that the penalty aims at; at first that of the template.
+  void set_rest_volume(double volume) { rest_volume_ = volume; }
+
   /// Whether forces() needs the size of the whole cell.
   bool needs_size() const { return parameters_.global_area > 0 || parameters_.volume > 0; }
 
@@ -84,6 +87,7 @@ class MembraneModel {
 
   const SurfaceTemplate &shape_;
   MembraneParameters parameters_;
+  double rest_volume_;
 
   // Of the cell in hand.
   std::vector<Triangle> triangles_;

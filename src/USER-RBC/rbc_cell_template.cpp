@@ -51,3 +51,18 @@ LAMMPS_NS::make_cell_template(LAMMPS *lmp, const std::string &id, const std::str
                     style, problem.what());
   }
 }
+
+void LAMMPS_NS::take_stress_free_shape(LAMMPS *lmp, rbc::SurfaceTemplate &surface,
+                                       const std::string &id, const std::string &stress_free_id,
+                                       const std::string &style)
+{
+  const auto stress_free = make_cell_template(lmp, stress_free_id, style + " stress-free");
+  try {
+    surface.take_reference(*stress_free);
+  } catch (const std::invalid_argument &problem) {
+    lmp->error->all(FLERR,
+                    "Molecule template {} for {} stress-free must have the triangles of {} in the "
+                    "same order: {}",
+                    stress_free_id, style, id, problem.what());
+  }
+}

@@ -128,4 +128,22 @@ SurfaceTemplate::SurfaceTemplate(std::vector<Vec3> vertices_in, std::vector<Corn
   }
 }
 
+void SurfaceTemplate::take_reference(const SurfaceTemplate &stress_free)
+{
+  const auto name = [](const Corners &corners) {
+    return std::to_string(corners[0] + 1) + "-" + std::to_string(corners[1] + 1) + "-" +
+           std::to_string(corners[2] + 1);
+  };
+  require(stress_free.size() == size(), "it has " + std::to_string(stress_free.size()) +
+                                            " vertices, not " + std::to_string(size()));
+  require(stress_free.triangles.size() == triangles.size(),
+          "it has " + std::to_string(stress_free.triangles.size()) + " triangles, not " +
+              std::to_string(triangles.size()));
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    require(stress_free.triangles[t] == triangles[t],
+            "its triangle " + name(stress_free.triangles[t]) + " stands in place of " +
+                name(triangles[t]));
+  reference = stress_free.reference;
+}
+
 }    // namespace rbc

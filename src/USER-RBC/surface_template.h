@@ -8,7 +8,7 @@ namespace rbc {
 
 using Vec3 = Eigen::Vector3d;
 
-/// Inverse metric and area of a triangle in the stress-free shape, in the basis of its edges from corner 0.
+/// Inverse metric and area of a stress-free triangle, in the basis of its edges from corner 0.
 struct ReferenceTriangle {
   double g11, g12, g22;
   double area;
@@ -21,8 +21,8 @@ struct Hinge {
   int left, right;
 };
 
-/// Closed oriented triangulated surface: topology and stress-free shape shared by all cells made from it.
-/// Lengths in the units of the coordinates.
+/// Closed oriented triangulated surface: topology and rest shape shared by all cells made from it. Its own triangles
+/// are free of stress unless it takes those of another surface. Lengths in the units of the coordinates.
 class SurfaceTemplate {
  public:
   using Corners = std::array<int, 3>;
@@ -33,11 +33,15 @@ class SurfaceTemplate {
 
   int size() const { return static_cast<int>(vertices.size()); }
 
+  /// Takes the stress-free triangles of another surface. Throws std::invalid_argument, saying which triangle differs,
+  /// unless it joins the same vertices.
+  void take_reference(const SurfaceTemplate &stress_free);
+
   std::vector<Vec3> vertices;
   std::vector<Corners> triangles;
   std::vector<Hinge> hinges;
   std::vector<ReferenceTriangle> reference;
-  std::vector<double> curvature;    ///< mean curvature of the stress-free shape at each vertex
+  std::vector<double> curvature;               ///< mean curvature of the shape at each vertex
   std::vector<std::vector<int>> neighbours;    ///< vertices that share an edge
   std::vector<std::vector<int>> fans;          ///< triangles around each vertex
   double area = 0, volume = 0;

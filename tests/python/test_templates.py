@@ -19,9 +19,20 @@ sys.path[:0] = [str(POTENTIALS), str(ROOT / "scripts")]
 sys.dont_write_bytecode = True
 
 import make_template  # noqa: E402
+import shapes  # noqa: E402
+import surface_mesh  # noqa: E402
 from read_ave_time import read_ave_time, read_csv, read_table  # noqa: E402
 
-SHIPPED = [f"{shape}_{size}.mol" for shape in ("rbc", "capsule") for size in (162, 362, 642, 2562)]
+GEODESIC = [f"{shape}_{size}.mol" for shape in ("rbc", "capsule") for size in (162, 362, 642, 2562)]
+SHIPPED = GEODESIC + ["rbc_642_spheroid95.mol"]
+
+
+def make(*words):
+    """What the script prints on both streams."""
+    output = io.StringIO()
+    with contextlib.redirect_stdout(output), contextlib.redirect_stderr(output):
+        make_template.main(list(map(str, words)))
+    return output.getvalue()
 
 
 def read_molecule(path):
@@ -73,7 +84,7 @@ class Template(unittest.TestCase):
 
     def test_any_frequency_gives_a_closed_outward_surface(self):
         for shape in ("sphere", "disc"):
-            for f in (1, 2, 3, 5, 7, 8, 12, 13):
+            for f in (1, 2, 3, 5, 7, 8, 12, 13, 32):
                 with self.subTest(shape=shape, frequency=f):
                     points, triangles = make_template.template(shape, f, 1.7)
                     self.assertEqual(len(points), 10 * f * f + 2)
@@ -122,7 +133,7 @@ class Template(unittest.TestCase):
     def test_triangles_are_well_shaped(self):
         for shape, angle, area_ratio in (("sphere", 53, 1.21), ("disc", 42, 1.55)):
             for f in (4, 6, 8, 16):
-                found = make_template.measure(*make_template.template(shape, f, 1))
+                found = surface_mesh.measure(*make_template.template(shape, f, 1))
                 self.assertGreater(found["angle"][0], angle)
                 self.assertLess(found["area_ratio"], area_ratio)
 
@@ -130,7 +141,7 @@ class Template(unittest.TestCase):
         for shape in ("sphere", "disc"):
             points, triangles = make_template.template(shape, 16, 1)
             step = np.linalg.norm(np.diff(points, axis=0), axis=1).mean()
-            self.assertLess(step, 1.5 * make_template.measure(points, triangles)["edge"][1])
+            self.assertLess(step, 1.5 * surface_mesh.measure(points, triangles)["edge"][1])
 
     def test_checker_refuses_bad_meshes(self):
         points, triangles = make_template.template("sphere", 2, 1)
@@ -138,17 +149,110 @@ class Template(unittest.TestCase):
         flipped[5] = flipped[5, ::-1]
         for bad in (triangles[:, ::-1], triangles[1:], flipped):
             with self.assertRaises(ValueError):
-                make_template.check(points, bad)
+                surface_mesh.check(points, bad)
         with self.assertRaises(ValueError):
-            make_template.check(np.vstack([points, points + 3]),
+            surface_mesh.check(np.vstack([points, points + 3]),
                                 np.vstack([triangles, triangles + len(points)]))
 
     def test_bad_arguments_are_refused(self):
         for words in ("sphere -f 0", "sphere -f 2 --radius 0", "disc -f 2 --diameter nan",
-                      "cube -f 2", "disc"):
+                      "cube -f 2", "disc", "spheroid -f 2 --axis-ratio 1", "spheroid --axis-ratio 1 --area 1",
+                      "spheroid -f 2 --area 1 --reduced-volume 1.01", "sickle -f 2 --length 4 --width 4 --bend 180",
+                      "spheroid -f 2 --reduced-volume 1 --like rbc_162.mol", "mesh", "mesh a.stl --area 1 --scale 2",
+                      "spheroid -f 2 --axis-ratio 2 --prolate --area 1"):
             with self.subTest(words), contextlib.redirect_stderr(io.StringIO()):
                 with self.assertRaises(SystemExit):
                     make_template.main(words.split())
+
+
+class Spheroid(unittest.TestCase):
+    def test_size_is_that_of_its_profile(self):
+        for ratio in (0.2, 0.6521, 1, 1.8, 5):
+            with self.subTest(ratio):
+                t = np.linspace(0, math.pi, 200001)
+                r, z = np.sin(t), ratio * np.cos(t)
+                area = (math.pi * (r[1:] + r[:-1]) * np.hypot(np.diff(r), np.diff(z))).sum()
+                volume = -(math.pi / 3 * (r[1:]**2 + r[1:] * r[:-1] + r[:-1]**2) * np.diff(z)).sum()
+                np.testing.assert_allclose(shapes.spheroid_size(ratio, 3), (9 * area, 27 * volume), rtol=1e-8)
+
+    def test_reduced_volume(self):
+        for reduced in (0.3, 0.65, 0.95, 0.997, 1):
+            for prolate in (False, True):
+                ratio = shapes.axis_ratio_of(reduced, prolate)
+                self.assertEqual(ratio > 1, prolate and reduced < 1)
+                area, volume = shapes.spheroid_size(ratio)
+                self.assertAlmostEqual(36 * math.pi * volume**2 / area**3, reduced**2, places=9)
+
+    def test_mesh_lies_on_it_and_has_the_area(self):
+        for form in ("--axis-ratio 0.4", "--axis-ratio 2.5", "--reduced-volume 0.9", "--reduced-volume 0.9 --prolate"):
+            with self.subTest(form), tempfile.TemporaryDirectory() as folder:
+                file = Path(folder, "s.mol")
+                make("spheroid", *form.split(), "--area", 55, "-f", 6, "-o", file)
+                points, triangles = read_molecule(file)
+                area, volume = area_and_volume(points, triangles)
+                self.assertAlmostEqual(area, 55, delta=1e-9)
+                radius, half = np.abs(points[:, :2]).max(), np.abs(points[:, 2]).max()
+                level = (points[:, :2]**2).sum(axis=1) / radius**2 + (points[:, 2] / half)**2
+                self.assertLess(np.abs(level - 1).max(), 1e-12)
+                smooth = shapes.spheroid_size(half / radius, radius)
+                self.assertLess(abs(area / smooth[0] - 1), 0.03)
+                self.assertEqual(half > radius, "prolate" in form or "2.5" in form)
+
+    def test_like_a_template(self):
+        for like in ("rbc_642.mol", "rbc_162.mol", "capsule_362.mol"):
+            for reduced in (0.9, 1):
+                with self.subTest(like, reduced=reduced), tempfile.TemporaryDirectory() as folder:
+                    file = Path(folder, "s.mol")
+                    make("spheroid", "--reduced-volume", reduced, "--like", POTENTIALS / like, "-o", file)
+                    points, triangles = read_molecule(file)
+                    cell, same = read_molecule(POTENTIALS / like)
+                    np.testing.assert_array_equal(triangles, same)
+                    self.assertAlmostEqual(area_and_volume(points, triangles)[0] / area_and_volume(cell, same)[0], 1,
+                                           delta=1e-11)
+                    found = 36 * math.pi * area_and_volume(points, triangles)[1]**2 / (
+                        area_and_volume(points, triangles)[0]**3)
+                    self.assertLess(abs(math.sqrt(found) - reduced), 0.02)
+                    # the same azimuth and side, and nearly the same area of each triangle
+                    np.testing.assert_allclose(np.arctan2(points[:, 1], points[:, 0]), np.arctan2(cell[:, 1], cell[:, 0]),
+                                               atol=1e-12)
+                    self.assertTrue((np.sign(points[:, 2]) == np.sign(cell[:, 2])).all())
+                    ratio = [np.linalg.norm(np.cross(x[same[:, 1]] - x[same[:, 0]], x[same[:, 2]] - x[same[:, 0]]),
+                                            axis=1) for x in (points, cell)]
+                    self.assertLess(np.abs(ratio[0] / ratio[1] - 1).max(), 0.012 * 642 / len(points))
+
+    def test_like_another_mesh_is_refused(self):
+        with self.assertRaisesRegex(SystemExit, "rbc_642_spheroid95.mol: is not a disc or sphere"):
+            make("spheroid", "--reduced-volume", 0.9, "--like", POTENTIALS / "rbc_642_spheroid95.mol")
+
+    def test_numbers_in_the_title(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "s.mol")
+            make("spheroid", "--reduced-volume", 0.9, "--like", POTENTIALS / "rbc_162.mol", "-o", file,
+                 "--citation", "Someone, Journal, 1, 2 (2003)")
+            lines = file.read_text().splitlines()
+            self.assertTrue(lines[0].endswith("CITATION: Someone, Journal, 1, 2 (2003)"))
+            self.assertEqual(lines[1], "# make_template.py spheroid --reduced-volume 0.9 --like rbc_162.mol")
+
+
+class Sickle(unittest.TestCase):
+    def test_volume_of_the_straight_ellipsoid_at_second_order(self):
+        errors = []
+        for f in (8, 16, 32):
+            points, triangles = shapes.geodesic(f)
+            points = shapes.sickle(points, 15, 4, 3, math.radians(90))
+            surface_mesh.check(points, triangles)
+            errors.append(1 - area_and_volume(points, triangles)[1] / (math.pi / 6 * 15 * 4 * 3))
+        orders = np.log2(np.array(errors[:-1]) / errors[1:])
+        self.assertLess(np.abs(orders - 2).max(), 0.05, orders)
+
+    def test_it_is_bent(self):
+        points = shapes.sickle(shapes.geodesic(8)[0], 15, 4, 3, math.radians(90))
+        radius = 15 / math.radians(90)
+        from_axis = np.hypot(points[:, 0], points[:, 1] - radius)
+        self.assertAlmostEqual(from_axis.min(), radius - 2, delta=0.02)
+        self.assertAlmostEqual(from_axis.max(), radius + 2, delta=0.02)
+        self.assertAlmostEqual(np.abs(points[:, 2]).max(), 1.5, delta=0.02)
+        self.assertAlmostEqual(np.degrees(np.arctan2(points[:, 0], radius - points[:, 1])).max(), 45, delta=0.1)
 
 
 class Shipped(unittest.TestCase):
@@ -159,16 +263,36 @@ class Shipped(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             for command in commands:
                 *words, name = shlex.split(command)
-                with contextlib.redirect_stdout(io.StringIO()):
-                    make_template.main(words + [str(Path(folder, name))])
+                words = [str(POTENTIALS / word) if word in SHIPPED else word for word in words]
+                make(*words, Path(folder, name))
                 self.assertEqual(Path(folder, name).read_bytes(), (POTENTIALS / name).read_bytes(),
                                  f"{name} differs from what the README's command makes")
                 made.append(name)
         self.assertEqual(sorted(made), sorted(path.name for path in POTENTIALS.glob("*.mol")))
         self.assertEqual(sorted(made), sorted(SHIPPED))
 
+    def test_readme_makes_other_cells(self):
+        readme = (POTENTIALS / "README.md").read_text(encoding="utf-8")
+        commands = re.findall(r"^potentials/make_template\.py (.*)$", readme, re.MULTILINE)
+        rows = re.findall(r"^\| ([^|]*) \| ([\d.]+) x ([\d.]+) x ([\d.]+) \| ([\d.]+) \| ([\d.]+) \|", readme, re.MULTILINE)
+        with tempfile.TemporaryDirectory() as folder:
+            made = []
+            for command in commands:
+                words = [str(Path(folder, word)) if re.search(r"\.(mol|stl)$", word) else word
+                         for word in shlex.split(command)]
+                make(*words)
+                if words[-1].endswith(".mol"):
+                    made.append(words[-1])
+            self.assertEqual(len(made), len(rows))
+            for file, (name, *numbers) in zip(made, rows):
+                with self.subTest(name):
+                    points, triangles = read_molecule(file)
+                    found = [*np.ptp(points, axis=0), *area_and_volume(points, triangles)]
+                    np.testing.assert_allclose(found, np.array(numbers, float), rtol=2.5e-3)
+                    self.assertEqual(len(points), int(re.search(r"_(\d+)\.mol$", file).group(1)))
+
     def test_files_hold_the_meshes(self):
-        for name in SHIPPED:
+        for name in GEODESIC:
             with self.subTest(name):
                 points, triangles = read_molecule(POTENTIALS / name)
                 self.assertEqual(len(points), int(re.search(r"\d+", name).group()))

@@ -9,6 +9,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -145,6 +146,14 @@ def read_template(path):
         elif words and rows is not None:
             rows.append([float(word) for word in words])
     return np.array(sections["Coords"])[:, 1:], np.array(sections["Angles"])[:, 2:].astype(int) - 1
+
+
+def make_template(*words):
+    """Runs potentials/make_template.py."""
+    done = subprocess.run([sys.executable, POTENTIALS / "make_template.py", *map(str, words)], text=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+    if done.returncode:
+        raise AssertionError(done.stdout)
 
 
 def dump_line(every, name="atoms.dump", columns="id mol type xu yu zu fx fy fz"):

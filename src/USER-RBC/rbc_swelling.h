@@ -1,0 +1,53 @@
+#ifndef LMP_RBC_SWELLING_H
+#define LMP_RBC_SWELLING_H
+
+#include "modify.h"
+#include "rbc_number_or_variable.h"
+#include "update.h"
+
+namespace LAMMPS_NS {
+
+/// Factor on the rest volume of cells, a number or a variable, now and a step before.
+class Swelling {
+ public:
+  Swelling() = default;
+  Swelling(LAMMPS *lmp, const char *arg) : factor(lmp, arg)
+  {
+    if (!factor.is_variable()) state.now = state.before = factor.value(lmp);
+  }
+
+  bool varies() const { return factor.is_variable(); }
+  void check(LAMMPS *lmp, const char *style) const { factor.check(lmp, style); }
+
+  double now() const { return state.now; }
+  double middle() const { return 0.5 * (state.before + state.now); }
+  double change() const { return state.now - state.before; }
+
+  /// Collective: evaluates a variable, once a step. What it jumped by between runs is no change within a step.
+  void update(LAMMPS *lmp, bool new_run)
+  {
+    const auto step = static_cast<double>(lmp->update->ntimestep);
+    if (!varies() || (step == state.step && !new_run)) return;
+    lmp->modify->clearstep_compute();
+    const double value = factor.value(lmp);
+    lmp->modify->addstep_compute(lmp->update->ntimestep + 1);
+    if (step == state.step + 1)
+      state.before = state.now;
+    else if (step != state.step || value != state.now)
+      state.before = value;
+    state.now = value;
+    state.step = step;
+  }
+
+  /// What a restart needs, all of it doubles.
+  struct State {
+    double now = 1, before = 1, step = -1;
+  } state;
+
+ private:
+  NumberOrVariable factor;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
