@@ -29,12 +29,13 @@ def cases():
     """(name of the series, label, variables) of every run."""
     yield "law", "neo", BASE
     yield "law", "mooney", dict(BASE, law="mooney")
-    yield "law", "skalak", dict(BASE, law="skalak", stretch=1.5, duration=36, timestep=0.004, box=4.5)
+    yield "law", "skalak", dict(BASE, law="skalak", stretch=1.5, timestep=0.006, box=4.5)
     yield "mesh", "162 vertices, dx 1/4", dict(BASE, shape="capsule_162", dx=0.25)
     yield "mesh", "2562 vertices, dx 1/16", dict(BASE, shape="capsule_2562", dx=0.0625, timestep=0.03)
     for name, dx in (("1/6", 1 / 6), ("1/10", 0.1), ("1/12", 1 / 12)):
         yield "dx", f"642 vertices, dx {name}", dict(BASE, dx=dx)
     yield "kernel", "642 vertices, dx 1/8, roma3", dict(BASE, kernel="roma3")
+    yield "dx", "642 vertices, dx 1/4, ramp of 20", dict(BASE, dx=0.25, duration=20, timestep=0.02)
     for duration in (36, 144):
         yield "duration", f"642 vertices, dx 1/8, ramp of {duration}", dict(BASE, duration=duration)
 

@@ -71,6 +71,8 @@ def run(lmp, ranks, variables):
                                 capture_output=True, text=True)
         errors = [line for line in result.stdout.splitlines() if line.startswith("ERROR")]
         print(*errors, sep="\n", end="\n" if errors else "")
+        if not os.path.exists(os.path.join(folder, "stretch.dat")):
+            raise SystemExit(result.stdout + result.stderr)
         return read_results(folder)
 
 
