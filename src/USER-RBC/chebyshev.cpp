@@ -19,7 +19,8 @@ double ChebyshevMethod::stability_limit(int stages) const
 int ChebyshevMethod::stages_for(double stiffness) const
 {
   const double per_square = stability_limit(2) / 3;
-  return std::max(LEAST_STAGES, static_cast<int>(std::ceil(std::sqrt(1 + stiffness / per_square))));
+  const double stages = std::ceil(std::sqrt(1 + stiffness / per_square));
+  return static_cast<int>(std::clamp(stages, double(LEAST_STAGES), MOST_STAGES + 1.0));
 }
 
 void ChebyshevMethod::set_stages(int s)

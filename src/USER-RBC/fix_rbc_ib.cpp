@@ -91,9 +91,11 @@ void FixRBCIB::parse(int narg, char **arg)
         automatic_stages = strcmp(arg[iarg + 2], "auto") == 0;
         if (!automatic_stages) {
           stages = utils::inumeric(FLERR, arg[iarg + 2], false, lmp);
-          if (stages < 2)
-            error->all(FLERR, iarg + 2, "Fix rbc/ib rkc stages {} must be auto or >= 2",
-                       arg[iarg + 2]);
+          if (stages < rbc::ChebyshevMethod::LEAST_STAGES ||
+              stages > rbc::ChebyshevMethod::MOST_STAGES)
+            error->all(FLERR, iarg + 2, "Fix rbc/ib rkc stages {} must be auto or from {} to {}",
+                       arg[iarg + 2], rbc::ChebyshevMethod::LEAST_STAGES,
+                       rbc::ChebyshevMethod::MOST_STAGES);
         }
         ++iarg;
       } else
@@ -314,7 +316,7 @@ void FixRBCIB::initial_integrate(int /*vflag*/)
     return;
   }
   if (late_forces && update->ntimestep == first_step + 1) motion->update_velocities(Stage::START);
-  if (control.active()) set_timestep(next_dt);
+  if (control.active()) set_timestep(std::min(next_dt, motion->longest_step()));
 
   motion->load(atom->x, start);
   motion->load(atom->v, velocity);
@@ -326,6 +328,7 @@ void FixRBCIB::initial_integrate(int /*vflag*/)
   } while (control.active() && !accept_step());
   motion->store(position, atom->x);
   motion->check_positions();
+  motion->stop->check();
   if (stored() > 0) remember();
   last_dt = update->dt;
 }
@@ -458,7 +461,9 @@ void FixRBCIB::estimate_radius()
   }
   const double size = RADIUS_DISPLACEMENT * fluid_fix->smallest_spacing() *
                       std::sqrt(dot(*motion, middle, middle)) / root_mean_square(*motion, middle);
+  motion->probing = true;
   radius = RADIUS_SAFETY * spectrum.estimate(*motion, start, velocity, size, middle);
+  motion->probing = false;
   if (!std::isfinite(radius))
     error->all(FLERR, "Fix rbc/ib {}: the spectral radius is not a number at step {}", id,
                update->ntimestep);
@@ -468,7 +473,14 @@ void FixRBCIB::estimate_radius()
 
 void FixRBCIB::choose_stages(double dt)
 {
-  if (automatic_stages) chebyshev.set_stages(chebyshev.stages_for(dt * radius));
+  if (!automatic_stages) return;
+  const int stages = chebyshev.stages_for(dt * radius);
+  if (stages > rbc::ChebyshevMethod::MOST_STAGES)
+    error->all(FLERR,
+               "Fix rbc/ib {}: integrator rkc needs more than {} stages at step {}: the timestep "
+               "{:.3g} is {:.3g} times the time in which the fastest mode relaxes",
+               id, rbc::ChebyshevMethod::MOST_STAGES, update->ntimestep, dt, dt * radius);
+  chebyshev.set_stages(stages);
 }
 
 /* ----------------------------------------------------------------------
@@ -542,6 +554,7 @@ void FixRBCIB::advance_with_inertia()
     for (std::size_t i = 0; i < start.size(); ++i) position[i] = start[i] + span * velocity[i];
     motion->store(position, atom->x);
     motion->check_positions();
+    motion->stop->check();
   };
   if (integrator == Integrator::MIDPOINT) {
     move(0.5 * update->dt);
@@ -595,7 +608,7 @@ void FixRBCIB::couple_masses()
   for (int i : motion->members()) {
     const double mass = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
     if (!(mass > 0))
-      motion->stop(i, fmt::format("has mass {}; scheme direct needs a mass > 0", mass));
+      motion->report(i, fmt::format("has mass {}; scheme direct needs a mass > 0", mass));
     const int steps = static_cast<int>(history[i][STEPS]);
     const double span = steps == 0 ? 0.5 * dt : between;
     const double r = steps > 1 ? span / last_between : 1;
@@ -612,12 +625,14 @@ void FixRBCIB::couple_masses()
     }
     history[i][STEPS] = std::min(steps + 1, 2);
   }
+  motion->stop->check();
 
   const auto outcome = direct.advance(fluid_fix->flow(), dt,
                                       {kernel, motion->markers(), motion->rows(atom->x),
                                        applied.data(), resistance.data(), target.data(),
                                        inertial.data(), motion->rows(atom->v), atom->nlocal});
-  if (outcome.outside >= 0) motion->stop_outside(outcome.outside);
+  if (outcome.outside >= 0) motion->report_outside(outcome.outside);
+  motion->stop->check();
   coupling_error = outcome.error;
   if (!(outcome.error <= direct.tolerance)) ++unconverged;
 
