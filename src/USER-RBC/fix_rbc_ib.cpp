@@ -79,9 +79,11 @@ void FixRBCIB::parse(int narg, char **arg)
         need(2, "integrator rkc");
         if (strcmp(arg[iarg + 2], "auto") != 0) {
           stages = utils::inumeric(FLERR, arg[iarg + 2], false, lmp);
-          if (stages < 2)
-            error->all(FLERR, iarg + 2, "Fix rbc/ib rkc stages {} must be auto or >= 2",
-                       arg[iarg + 2]);
+          if (stages < rbc::ChebyshevMethod::LEAST_STAGES ||
+              stages > rbc::ChebyshevMethod::MOST_STAGES)
+            error->all(FLERR, iarg + 2, "Fix rbc/ib rkc stages {} must be auto or from {} to {}",
+                       arg[iarg + 2], rbc::ChebyshevMethod::LEAST_STAGES,
+                       rbc::ChebyshevMethod::MOST_STAGES);
         }
         ++iarg;
       } else
@@ -312,6 +314,7 @@ void FixRBCIB::advance_with_inertia()
     for (std::size_t i = 0; i < start.size(); ++i) position[i] = start[i] + span * velocity[i];
     motion->store(position, atom->x);
     motion->check_positions();
+    motion->stop->check();
   };
   if (steady->method() == Integrator::MIDPOINT) {
     move(0.5 * update->dt);
@@ -365,7 +368,7 @@ void FixRBCIB::couple_masses()
   for (int i : motion->members()) {
     const double mass = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
     if (!(mass > 0))
-      motion->stop(i, fmt::format("has mass {}; scheme direct needs a mass > 0", mass));
+      motion->report(i, fmt::format("has mass {}; scheme direct needs a mass > 0", mass));
     const int steps = static_cast<int>(history[i][STEPS]);
     const double span = steps == 0 ? 0.5 * dt : between;
     const double r = steps > 1 ? span / last_between : 1;
@@ -382,12 +385,14 @@ void FixRBCIB::couple_masses()
     }
     history[i][STEPS] = std::min(steps + 1, 2);
   }
+  motion->stop->check();
 
   const auto outcome = direct.advance(fluid_fix->flow(), dt,
                                       {kernel, motion->markers(), motion->rows(atom->x),
                                        applied.data(), resistance.data(), target.data(),
                                        inertial.data(), motion->rows(atom->v), atom->nlocal});
-  if (outcome.outside >= 0) motion->stop_outside(outcome.outside);
+  if (outcome.outside >= 0) motion->report_outside(outcome.outside);
+  motion->stop->check();
   coupling_error = outcome.error;
   if (!(outcome.error <= direct.tolerance)) ++unconverged;
 

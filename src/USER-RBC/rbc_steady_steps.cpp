@@ -20,7 +20,7 @@ using rbc::Numbers;
 // spacing of the fluid
 
 static constexpr int RADIUS_EVERY = 50;
-static constexpr double RADIUS_SAFETY = 1.1;
+static constexpr double RADIUS_SAFETY = 1.06;
 static constexpr double RADIUS_DISPLACEMENT = 1.0e-5;
 
 // third order: largest ratio of a timestep to the one before, parts of a step without a past
@@ -88,7 +88,8 @@ void SteadySteps::advance()
 {
   if (forces_change_ && update->ntimestep == first_step_ + 1)
     motion_.update_velocities(MarkerMotion::Stage::START);
-  if (control_.active()) set_timestep(next_dt_, update->ntimestep - 1);
+  if (control_.active())
+    set_timestep(std::min(next_dt_, motion_.longest_step()), update->ntimestep - 1);
 
   motion_.load(atom->x, start_);
   motion_.load(atom->v, velocity_);
@@ -100,6 +101,7 @@ void SteadySteps::advance()
   } while (control_.active() && !accept());
   motion_.store(position_, atom->x);
   motion_.check_positions();
+  motion_.stop->check();
   remember();
   last_dt_ = update->dt;
 }
@@ -222,11 +224,11 @@ void SteadySteps::estimate_radius()
                       root_mean_square(motion_, middle_);
 
   // viscous forces only slow what relaxes, and are not solved for as exactly as differences ask
-  motion_.leave_out_viscosity(true);
+  motion_.probing = true;
   scratch_ = velocity_;
   if (motion_.is_viscous()) motion_.velocity(start_, 0, scratch_);
   radius_ = RADIUS_SAFETY * spectrum_.estimate(motion_, start_, scratch_, size, middle_);
-  motion_.leave_out_viscosity(false);
+  motion_.probing = false;
   if (!std::isfinite(radius_))
     error->all(FLERR, "{}: the spectral radius is not a number at step {}", style_,
                update->ntimestep);
@@ -236,7 +238,14 @@ void SteadySteps::estimate_radius()
 
 void SteadySteps::choose_stages(double dt)
 {
-  if (automatic_stages_) chebyshev_.set_stages(chebyshev_.stages_for(dt * radius_));
+  if (!automatic_stages_) return;
+  const int stages = chebyshev_.stages_for(dt * radius_);
+  if (stages > rbc::ChebyshevMethod::MOST_STAGES)
+    error->all(FLERR,
+               "{}: integrator rkc needs more than {} stages at step {}: the timestep {:.3g} is "
+               "{:.3g} times the time in which the fastest mode relaxes",
+               style_, rbc::ChebyshevMethod::MOST_STAGES, update->ntimestep, dt, dt * radius_);
+  chebyshev_.set_stages(stages);
 }
 
 /* ----------------------------------------------------------------------

@@ -8,7 +8,7 @@ namespace rbc {
 /// Verwer, J. Comput. Appl. Math. 88 (1998) 315).
 class SpectralRadius {
  public:
-  double tolerance = 0.02;    ///< change of the estimate at which iterations end
+  double tolerance = 0.01;    ///< change of the estimate at which iterations end
   int max_iterations = 100;
 
   /// `size` is how far points are displaced (root of the sum of squares). `mode` holds a first guess of the fastest

@@ -125,7 +125,7 @@ IB_ERRORS = {
     "maxiter zero": (dict(ib=DIRECT + " maxiter 0"), ["rbc/ib", "maxiter", "0", "> 0"]),
     "maxiter no integer": (dict(ib=DIRECT + " maxiter 1.5"), ["1.5", "integer"]),
     "rkc without stages": (dict(ib="fix ib all rbc/ib flow integrator rkc"), ["fix rbc/ib integrator rkc", "missing"]),
-    "rkc of one stage": (dict(ib="fix ib all rbc/ib flow integrator rkc 1"), ["rbc/ib", "rkc", "1", "auto or >= 2"]),
+    "rkc of one stage": (dict(ib="fix ib all rbc/ib flow integrator rkc 1"), ["rbc/ib", "rkc", "1", "auto or from 2 to 10000"]),
     "rkc of many": (dict(ib="fix ib all rbc/ib flow integrator rkc many"), ["many", "integer"]),
     "order four": (dict(ib="fix ib all rbc/ib flow integrator rkc 5 order 4"), ["rbc/ib", "order", "4", "2 or 3"]),
     "order of midpoint": (dict(ib=SHEAR["ib"] + " order 3"), ["rbc/ib", "order 3", "integrator rkc"]),
