@@ -158,7 +158,10 @@ FixRBCIB::~FixRBCIB()
 void FixRBCIB::post_constructor()
 {
   if (stored() == 0) return;
-  store_id = std::string(id) + "_STORE_MOTION";
+  // what is stored differs: a restart file of another method must not be taken for this one's
+  const bool direct_scheme = scheme == Scheme::DIRECT;
+  store_id = fmt::format("{}_STORE_{}_{}", id,
+                         direct_scheme ? 10 : static_cast<int>(steady->method()), stored());
   store = dynamic_cast<FixStoreAtom *>(modify->add_fix(
       fmt::format("{} {} STORE/ATOM {} 0 0 1", store_id, group->names[igroup], stored())));
   steady->keep_in(store);
@@ -187,6 +190,7 @@ void FixRBCIB::init()
   fluid_fix = dynamic_cast<FixRBCFluid *>(modify->get_fix_by_id(fluid_id));
   if (!fluid_fix)
     error->all(FLERR, "Fix rbc/ib {}: there is no fix rbc/fluid with ID {}", id, fluid_id);
+  inertia = fluid_fix->has_inertia();
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix rbc/ib cannot be used with run_style respa");
   if (update->whichflag == 2) error->all(FLERR, "Fix rbc/ib cannot be used with minimize");
@@ -216,6 +220,12 @@ void FixRBCIB::init()
   bool before = true;
   for (Fix *fix : modify->get_fix_list()) {
     if (fix == this) before = false;
+    if (before && steady->adaptive() && (modify->get_fix_mask(fix) & INITIAL_INTEGRATE))
+      error->all(
+          FLERR,
+          "Fix rbc/ib {} with adapt must be defined before fix {} {}, which moves atoms by the "
+          "timestep",
+          id, fix->style, fix->id);
     if (!before && (modify->get_fix_mask(fix) & POST_FORCE)) late_forces = true;
     auto membrane = dynamic_cast<FixRBCMembrane *>(fix);
     if (!membrane) continue;
@@ -287,7 +297,7 @@ void FixRBCIB::setup(int /*vflag*/)
 
 void FixRBCIB::initial_integrate(int /*vflag*/)
 {
-  if (fluid_fix->has_inertia())
+  if (inertia)
     advance_with_inertia();
   else
     steady->advance();
@@ -295,7 +305,8 @@ void FixRBCIB::initial_integrate(int /*vflag*/)
 
 void FixRBCIB::final_integrate()
 {
-  if (!fluid_fix->has_inertia()) steady->finish();
+  if (!inertia) steady->finish();
+  motion->stop->check();
 }
 
 /* ----------------------------------------------------------------------
@@ -322,6 +333,7 @@ void FixRBCIB::advance_with_inertia()
   }
   step_fluid();
   move(update->dt);
+  last_dt = update->dt;
 }
 
 /* ----------------------------------------------------------------------
@@ -404,7 +416,6 @@ void FixRBCIB::couple_masses()
           target[3 * i + d] - inertial[3 * i + d] / resistance[i] - atom->v[i][d];
       exerted[d] += applied[3 * i + d] + inertial[3 * i + d];
     }
-  last_dt = dt;
   last_between = between;
 }
 
@@ -427,7 +438,7 @@ double FixRBCIB::compute_vector(int n)
     case 7:
       return static_cast<double>(steady->rejected());
     case 8:
-      return fluid_fix->has_inertia() ? last_dt : steady->last_dt();
+      return inertia ? last_dt : steady->last_dt();
   }
   double sum = 0;
   if (scheme == Scheme::DIRECT)

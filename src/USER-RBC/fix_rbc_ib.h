@@ -51,6 +51,7 @@ class FixRBCIB : public Fix {
   Scheme scheme = Scheme::ELASTIC;
 
   class FixRBCFluid *fluid_fix = nullptr;
+  bool inertia = false;    // of the fluid
   std::vector<class FixRBCMembrane *> membranes;
   std::unique_ptr<MarkerMotion> motion;
   std::unique_ptr<SteadySteps> steady;

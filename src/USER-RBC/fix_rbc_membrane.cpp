@@ -248,8 +248,8 @@ void FixRBCMembrane::post_force(int vflag)
     check(local[c], measuring ? sizes[2 * c + 1] : surface->volume);
     add_forces(local[c], {sizes[2 * c], sizes[2 * c + 1]});
   }
-  if (is_viscous()) add_viscous_forces(true);
   stopwatch.stop();
+  if (is_viscous()) add_viscous_forces(true);
   if (stop == own_stop) stop->check();
 }
 
@@ -345,11 +345,13 @@ void FixRBCMembrane::add_to_atoms(const LocalCells::Cell &cell, bool with_virial
 
 void FixRBCMembrane::add_viscous_forces(bool with_virial)
 {
+  stopwatch.start();
   if (comm->nprocs > 1) comm->forward_comm(this);
   for (const LocalCells::Cell &cell : cells->cells()) {
     viscous_forces(cell);
     add_to_atoms(cell, with_virial);
   }
+  stopwatch.stop();
 }
 
 /* ----------------------------------------------------------------------

@@ -182,9 +182,12 @@ MembraneEnergy MembraneModel::load(const Law &law, const CellSize &size)
   if constexpr (form == BendingForm::helfrich) energy.bending = bend_vertices();
 
   const CellElements &elements = *elements_;
-  const auto &[i, j, k] = elements.corners;
-  const auto &[facing_i, facing_j, facing_k] = elements.opposite;
-  const auto &[share_i, share_j, share_k] = shape_.corner_share;
+  // names, not structured bindings, which lambdas of C++17 cannot capture
+  const auto &i = elements.corners[0], &j = elements.corners[1], &k = elements.corners[2];
+  const auto &facing_i = elements.opposite[0], &facing_j = elements.opposite[1],
+             &facing_k = elements.opposite[2];
+  const auto &share_i = shape_.corner_share[0], &share_j = shape_.corner_share[1],
+             &share_k = shape_.corner_share[2];
   const double area_strain = (size.area - shape_.area) / shape_.area;
   const double volume_strain = (size.volume - rest_volume_) / rest_volume_;
   const double global_tension =

@@ -6,6 +6,7 @@
 #include "pointers.h"
 
 #include <string>
+#include <utility>
 
 namespace LAMMPS_NS {
 
@@ -31,7 +32,8 @@ class CollectiveStop : protected Pointers {
     MPI_Bcast(&length, 1, MPI_INT, from, world);
     message_.resize(length);
     MPI_Bcast(message_.data(), length, MPI_CHAR, from, world);
-    error->all(FLERR, "{}", message_);
+    const std::string text = std::exchange(message_, {});
+    error->all(FLERR, "{}", text);
   }
 
  private:

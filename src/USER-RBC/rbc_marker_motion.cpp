@@ -124,9 +124,8 @@ void MarkerMotion::interpolate(Stage stage)
 
 void MarkerMotion::keep_volume(Stage stage)
 {
-  const bool mid_step = stage == Stage::MIDDLE || fluid_->has_inertia();
   for (FixRBCMembrane *membrane : keepers_)
-    membrane->keep_volume(update->dt, stage == Stage::START, mid_step);
+    membrane->keep_volume(update->dt, stage == Stage::START, fluid_->has_inertia());
 }
 
 void MarkerMotion::velocities_of_forces(Stage stage)

@@ -69,7 +69,8 @@ void SteadySteps::start_run(FixRBCFluid *fluid, bool forces_change)
   rejected_ = 0;
   if (!control_.active()) return;
   const bool changed = update->dt != last_dt_ && !restarted_;    // by the user
-  if (next_dt_ == 0 || changed) next_dt_ = std::min(update->dt, control_.largest);
+  if (next_dt_ == 0 || changed) next_dt_ = update->dt;
+  next_dt_ = std::min(next_dt_, control_.largest);
   restarted_ = false;
 }
 
@@ -86,6 +87,7 @@ void SteadySteps::atoms_migrated()
 
 void SteadySteps::advance()
 {
+  if (control_.active()) set_timestep(next_dt_, update->ntimestep - 1);
   if (forces_change_ && update->ntimestep == first_step_ + 1)
     motion_.update_velocities(MarkerMotion::Stage::START);
   if (control_.active())
@@ -174,13 +176,13 @@ void SteadySteps::move_chebyshev()
 
   const int past_steps = chebyshev_.past_steps();
   path_.clear(past_steps);
-  if (update->dt > LARGEST_GROWTH * past_dt_[0]) known_steps_ = 0;
-  for (int n = 0; n < known_steps_; ++n) {
+  const int known = update->dt > LARGEST_GROWTH * past_dt_[0] ? 0 : known_steps_;
+  for (int n = 0; n < known; ++n) {
     path_.span(n) = past_dt_[n];
     motion_.load(store_->astore, path_.moved(n), PAST + 3 * n);
   }
-  path_.set_steps(known_steps_);
-  if (known_steps_ < past_steps) {
+  path_.set_steps(known);
+  if (known < past_steps) {
     start_chebyshev();
     return;
   }
@@ -219,14 +221,13 @@ void SteadySteps::estimate_radius()
       middle_[i] = std::sin(1.0 + 12.9898 * static_cast<double>(i % 3) +
                             78.233 * static_cast<double>(atom->tag[members[i / 3]]));
   }
-  const double size = RADIUS_DISPLACEMENT * fluid_->smallest_spacing() *
-                      std::sqrt(dot(motion_, middle_, middle_)) /
-                      root_mean_square(motion_, middle_);
+  const double size = RADIUS_DISPLACEMENT * fluid_->smallest_spacing();
 
-  // viscous forces only slow what relaxes, and are not solved for as exactly as differences ask
+  // the velocities known are those of other times, and of viscous forces, which are not solved for as exactly as
+  // differences ask and only slow what relaxes
   motion_.probing = true;
   scratch_ = velocity_;
-  if (motion_.is_viscous()) motion_.velocity(start_, 0, scratch_);
+  motion_.velocity(start_, 0, scratch_);
   radius_ = RADIUS_SAFETY * spectrum_.estimate(motion_, start_, scratch_, size, middle_);
   motion_.probing = false;
   if (!std::isfinite(radius_))
@@ -262,7 +263,7 @@ void SteadySteps::remember()
   }
   const int past_steps = chebyshev_.past_steps();
   if (past_steps == 0) return;
-  known_steps_ = std::min(known_steps_ + 1, past_steps);
+  known_steps_ = std::min(path_.steps() + 1, past_steps);
   std::rotate(past_dt_.begin(), past_dt_.end() - 1, past_dt_.end());
   past_dt_[0] = update->dt;
   for (std::size_t n = 0; n < members.size(); ++n) {
@@ -311,7 +312,12 @@ void SteadySteps::set_timestep(double dt, bigint from_step)
   update->dt_default = 0;
   if (force->pair) force->pair->reset_dt();
   for (Fix *fix : modify->get_fix_list()) fix->reset_dt();
+
+  // output by time is planned anew as at the end of the step before
+  const bigint step = update->ntimestep;
+  update->ntimestep = from_step;
   output->reset_dt();
+  update->ntimestep = step;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -11,7 +11,7 @@ class SpectralRadius {
   double tolerance = 0.01;    ///< change of the estimate at which iterations end
   int max_iterations = 100;
 
-  /// `size` is how far points are displaced (root of the sum of squares). `mode` holds a first guess of the fastest
+  /// `size` is how far points are displaced (root mean square). `mode` holds a first guess of the fastest
   /// mode, not zero, and becomes it; `velocity` is that at x. One evaluation per iteration.
   double estimate(Motion &motion, const Numbers &x, const Numbers &velocity, double size,
                   Numbers &mode);
