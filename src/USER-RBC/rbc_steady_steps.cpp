@@ -219,9 +219,12 @@ void SteadySteps::estimate_radius()
       middle_[i] = std::sin(1.0 + 12.9898 * static_cast<double>(i % 3) +
                             78.233 * static_cast<double>(atom->tag[members[i / 3]]));
   }
+  radius_ = 0;
+  radius_step_ = update->ntimestep;
+  const double length = root_mean_square(motion_, middle_);
+  if (length == 0) return;    // the group is empty
   const double size = RADIUS_DISPLACEMENT * fluid_->smallest_spacing() *
-                      std::sqrt(dot(motion_, middle_, middle_)) /
-                      root_mean_square(motion_, middle_);
+                      std::sqrt(dot(motion_, middle_, middle_)) / length;
 
   // viscous forces only slow what relaxes, and are not solved for as exactly as differences ask
   motion_.probing = true;
@@ -233,7 +236,6 @@ void SteadySteps::estimate_radius()
     error->all(FLERR, "{}: the spectral radius is not a number at step {}", style_,
                update->ntimestep);
   motion_.store(middle_, store_->astore, mode_column());
-  radius_step_ = update->ntimestep;
 }
 
 void SteadySteps::choose_stages(double dt)
@@ -289,6 +291,7 @@ bool SteadySteps::accept()
   if (local_error_ <= control_.tolerance) return true;
 
   ++rejected_;
+  radius_step_ = -1;    // modes may have become faster, in contact for example
   if (next_dt_ < control_.smallest)
     error->all(FLERR,
                "{}: no timestep above {:.3g} meets the error {:.3g} of adapt at step {}; the local "
