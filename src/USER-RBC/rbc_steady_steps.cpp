@@ -221,6 +221,9 @@ void SteadySteps::estimate_radius()
       middle_[i] = std::sin(1.0 + 12.9898 * static_cast<double>(i % 3) +
                             78.233 * static_cast<double>(atom->tag[members[i / 3]]));
   }
+  radius_ = 0;
+  radius_step_ = update->ntimestep;
+  if (root_mean_square(motion_, middle_) == 0) return;    // the group is empty
   const double size = RADIUS_DISPLACEMENT * fluid_->smallest_spacing();
 
   // the velocities known are those of other times, and of viscous forces, which are not solved for as exactly as
@@ -234,7 +237,6 @@ void SteadySteps::estimate_radius()
     error->all(FLERR, "{}: the spectral radius is not a number at step {}", style_,
                update->ntimestep);
   motion_.store(middle_, store_->astore, mode_column());
-  radius_step_ = update->ntimestep;
 }
 
 void SteadySteps::choose_stages(double dt)
@@ -290,6 +292,7 @@ bool SteadySteps::accept()
   if (local_error_ <= control_.tolerance) return true;
 
   ++rejected_;
+  radius_step_ = -1;    // modes may have become faster, in contact for example
   if (next_dt_ < control_.smallest)
     error->all(FLERR,
                "{}: no timestep above {:.3g} meets the error {:.3g} of adapt at step {}; the local "
