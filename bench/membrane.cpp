@@ -77,9 +77,9 @@ void add_all()
     }
   }
   add("geometry/alone", {}, [](Case &c) { c.model_.set_cell(c.all_, c.x_); });
-  add("inverted/alone", {}, [](Case &c) {
+  add("flaw/alone", {}, [](Case &c) {
     c.model_.set_cell(c.all_, c.x_);
-    benchmark::DoNotOptimize(c.model_.find_inverted());
+    benchmark::DoNotOptimize(c.model_.find_flaw());
   });
   add("volume/gradient", {}, [](Case &c) {
     c.model_.set_cell(c.all_, c.x_);

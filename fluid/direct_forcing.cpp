@@ -47,7 +47,9 @@ DirectForcing::Outcome DirectForcing::advance(Flow &flow, double dt, const Probl
                   [&](int, std::size_t i) { total_[i] = problem.applied[i] + inertial[i]; });
   flow.clear_force();
   outcome.outside = flow.spread(problem.kernel, markers, problem.position, total_.data(), 1.0);
-  if (outcome.outside >= 0) return outcome;
+  std::array<double, 1> lost{outcome.outside >= 0 ? 1.0 : 0.0};
+  sum_over_ranks(lost, flow);
+  if (lost[0] > 0) return outcome;
   flow.gather_force();
   if (flow.regime().inertia == Inertia::none)
     flow.solve();

@@ -11,7 +11,8 @@ namespace rbc {
 /// it becomes a method of third order at no cost but memory: its error is that of a solution that nearly vanishes.
 class ChebyshevMethod {
  public:
-  static constexpr int LEAST_STAGES = 2;
+  /// Round-off grows with the square of the stages: to 1e-8 of a step at the most.
+  static constexpr int LEAST_STAGES = 2, MOST_STAGES = 10000;
 
   /// `order` 2 or 3.
   explicit ChebyshevMethod(int order = 2);
@@ -24,7 +25,7 @@ class ChebyshevMethod {
   /// Largest time step times spectral radius.
   double stability_limit(int stages) const;
 
-  /// Fewest stages for a time step times spectral radius.
+  /// Fewest stages for a time step times spectral radius, MOST_STAGES + 1 where these are not enough.
   int stages_for(double stiffness) const;
 
   void set_stages(int stages);

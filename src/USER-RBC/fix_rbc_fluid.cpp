@@ -29,7 +29,7 @@ static constexpr int KERNEL_LAYERS =
 
 /* ---------------------------------------------------------------------- */
 
-FixRBCFluid::FixRBCFluid(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
+FixRBCFluid::FixRBCFluid(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), stop(lmp)
 {
   scalar_flag = vector_flag = 1;
   size_vector = 12;
@@ -339,6 +339,12 @@ void FixRBCFluid::init()
                  fix->id);
     driver = fix->id;
     cells_per_step = ib->courant();
+    const double half = 0.5 * *std::min_element(cells.begin(), cells.end());
+    if (cells_per_step > half)
+      error->all(FLERR,
+                 "Fix rbc/ib {} courant value {} must be <= {}, half the cells of fix rbc/fluid {} "
+                 "along the side with the fewest",
+                 driver, cells_per_step, half, id);
   }
   driven = !driver.empty();
   if (layers_needed() != ghost_layers) build_flow();
@@ -399,19 +405,26 @@ void FixRBCFluid::check_courant()
   const auto fastest =
       fluid::fastest_cell(current_flow->grid(), current_flow->brick(), current_flow->velocity());
   const double courant = fastest.rate * update->dt;
-  if (courant <= MAX_COURANT) return;
-  double x[3];
-  for (int d = 0; d < 3; ++d)
-    x[d] = domain->boxlo[d] + (fastest.cell[d] + 0.5) * current_flow->grid().spacing[d];
+  if (!(courant <= MAX_COURANT)) {
+    std::array<double, 3> x;
+    for (int d = 0; d < 3; ++d)
+      x[d] = domain->boxlo[d] + (fastest.cell[d] + 0.5) * current_flow->grid().spacing[d];
+    report_too_fast(x, courant);
+  }
+  stop.check();
+}
+
+void FixRBCFluid::report_too_fast(const std::array<double, 3> &x, double courant)
+{
+  const std::string place = fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]);
   if (std::isfinite(courant))
-    error->one(FLERR,
-               "Fix rbc/fluid {}: the fluid at ({:.6g}, {:.6g}, {:.6g}) crosses {:.3g} cells in a "
-               "step at step {} (CFL above {}; timestep too large for inertia convective)",
-               id, x[0], x[1], x[2], courant, update->ntimestep, MAX_COURANT);
-  error->one(FLERR,
-             "Fix rbc/fluid {}: the velocity of the fluid at ({:.6g}, {:.6g}, {:.6g}) is not a "
-             "number at step {}",
-             id, x[0], x[1], x[2], update->ntimestep);
+    stop.report(fmt::format("Fix rbc/fluid {}: the fluid at {} crosses {:.3g} cells in a step at "
+                            "step {} (CFL above {}; timestep too large for inertia convective)",
+                            id, place, courant, update->ntimestep, MAX_COURANT));
+  else
+    stop.report(
+        fmt::format("Fix rbc/fluid {}: the velocity of the fluid at {} is not a number at step {}",
+                    id, place, update->ntimestep));
 }
 
 /* ----------------------------------------------------------------------

@@ -9,6 +9,7 @@ FixStyle(rbc/fluid,FixRBCFluid);
 
 #include "fix.h"
 #include "measures.h"
+#include "rbc_collective_stop.h"
 #include "rbc_number_or_variable.h"
 
 #include <array>
@@ -90,6 +91,8 @@ class FixRBCFluid : public Fix {
   void build_flow();
   void advance_alone();
   void check_courant();
+  void report_too_fast(const std::array<double, 3> &x, double courant);
+  CollectiveStop stop;
   std::vector<double> restart_head() const;
   double restart_bytes() const;
   void check_restart_size() const;

@@ -9,8 +9,6 @@
 #include "force.h"
 #include "group.h"
 #include "modify.h"
-#include "output.h"
-#include "pair.h"
 #include "update.h"
 
 #include <algorithm>
@@ -20,19 +18,9 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
-// integrator rkc auto: steps between estimates of the spectral radius, its safety factor, and how far points are
-// displaced for it, over the spacing of the fluid
+// numbers in restart files
 
-static constexpr int RADIUS_EVERY = 50;
-static constexpr double RADIUS_SAFETY = 1.1;
-static constexpr double RADIUS_DISPLACEMENT = 1.0e-5;
-
-// integrator rkc of an order above 2: largest ratio of a timestep to the one before, parts of a step without a past
-
-static constexpr double LARGEST_GROWTH = 1.2;
-static constexpr int STARTING_PARTS = 16;
-
-static constexpr int NSTATE = 3 + rbc::Path::LONGEST;    // numbers in restart files
+static constexpr int NSTATE = 2 + SteadySteps::NSTATE;
 
 /* ---------------------------------------------------------------------- */
 
@@ -49,14 +37,15 @@ FixRBCIB::FixRBCIB(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
   parse(narg, arg);
 
   if (stored() > 0) create_attribute = 1;
-  if (stored() > 0 || control.active()) restart_global = 1;
+  if (stored() > 0 || steady->adaptive()) restart_global = 1;
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixRBCIB::parse(int narg, char **arg)
 {
-  double courant = 1;
+  double courant = 1, error_bound = 0, largest_dt = 0;
+  Integrator integrator = Integrator::MIDPOINT;
   int stages = 0, order = 2;
   int iarg = 4;
   const auto need = [&](int n, const std::string &keyword) {
@@ -88,12 +77,13 @@ void FixRBCIB::parse(int narg, char **arg)
       else if (value == "rkc") {
         integrator = Integrator::RKC;
         need(2, "integrator rkc");
-        automatic_stages = strcmp(arg[iarg + 2], "auto") == 0;
-        if (!automatic_stages) {
+        if (strcmp(arg[iarg + 2], "auto") != 0) {
           stages = utils::inumeric(FLERR, arg[iarg + 2], false, lmp);
-          if (stages < 2)
-            error->all(FLERR, iarg + 2, "Fix rbc/ib rkc stages {} must be auto or >= 2",
-                       arg[iarg + 2]);
+          if (stages < rbc::ChebyshevMethod::LEAST_STAGES ||
+              stages > rbc::ChebyshevMethod::MOST_STAGES)
+            error->all(FLERR, iarg + 2, "Fix rbc/ib rkc stages {} must be auto or from {} to {}",
+                       arg[iarg + 2], rbc::ChebyshevMethod::LEAST_STAGES,
+                       rbc::ChebyshevMethod::MOST_STAGES);
         }
         ++iarg;
       } else
@@ -125,8 +115,8 @@ void FixRBCIB::parse(int narg, char **arg)
       courant = positive(iarg + 1, keyword);
     else if (keyword == "adapt") {
       need(2, keyword);
-      control.tolerance = positive(iarg + 1, "adapt error");
-      control.largest = positive(iarg + 2, "adapt largest timestep");
+      error_bound = positive(iarg + 1, "adapt error");
+      largest_dt = positive(iarg + 2, "adapt largest timestep");
       ++iarg;
     } else
       error->all(FLERR, iarg,
@@ -137,15 +127,13 @@ void FixRBCIB::parse(int narg, char **arg)
   }
   if (order > 2 && integrator != Integrator::RKC)
     error->all(FLERR, "Fix rbc/ib order {} needs integrator rkc", order);
-  chebyshev = rbc::ChebyshevMethod(order);
-  if (stages > 0) chebyshev.set_stages(stages);
-  control.order = integrator == Integrator::EULER ? 1 : 2;
-  control.growth = order > 2 ? LARGEST_GROWTH : 2;
 
   motion = std::make_unique<MarkerMotion>(lmp, fmt::format("Fix rbc/ib {}", id), groupbit, kernel);
   motion->courant = courant;
   motion->tolerance = direct.tolerance;
   motion->gmres.max_iterations = direct.max_solves;
+  steady = std::make_unique<SteadySteps>(lmp, fmt::format("Fix rbc/ib {}", id), *motion);
+  steady->choose(integrator, stages, order, error_bound, largest_dt);
 }
 
 /* ----------------------------------------------------------------------
@@ -155,8 +143,7 @@ void FixRBCIB::parse(int narg, char **arg)
 int FixRBCIB::stored() const
 {
   if (scheme == Scheme::DIRECT) return STEPS + 1;
-  if (integrator == Integrator::AB2) return PAST + 3;
-  return mode_column() + (automatic_stages ? 3 : 0);
+  return steady->numbers_per_atom();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -171,9 +158,13 @@ FixRBCIB::~FixRBCIB()
 void FixRBCIB::post_constructor()
 {
   if (stored() == 0) return;
-  store_id = std::string(id) + "_STORE_MOTION";
+  // what is stored differs: a restart file of another method must not be taken for this one's
+  const bool direct_scheme = scheme == Scheme::DIRECT;
+  store_id = fmt::format("{}_STORE_{}_{}", id,
+                         direct_scheme ? 10 : static_cast<int>(steady->method()), stored());
   store = dynamic_cast<FixStoreAtom *>(modify->add_fix(
       fmt::format("{} {} STORE/ATOM {} 0 0 1", store_id, group->names[igroup], stored())));
+  steady->keep_in(store);
 }
 
 /* ----------------------------------------------------------------------
@@ -199,16 +190,18 @@ void FixRBCIB::init()
   fluid_fix = dynamic_cast<FixRBCFluid *>(modify->get_fix_by_id(fluid_id));
   if (!fluid_fix)
     error->all(FLERR, "Fix rbc/ib {}: there is no fix rbc/fluid with ID {}", id, fluid_id);
+  inertia = fluid_fix->has_inertia();
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix rbc/ib cannot be used with run_style respa");
   if (update->whichflag == 2) error->all(FLERR, "Fix rbc/ib cannot be used with minimize");
-  const bool explicit_steps = integrator == Integrator::EULER || integrator == Integrator::MIDPOINT;
+  const bool explicit_steps =
+      steady->method() == Integrator::EULER || steady->method() == Integrator::MIDPOINT;
   if (fluid_fix->has_inertia() && !explicit_steps)
     error->all(FLERR,
                "Fix rbc/ib {}: fix rbc/fluid {} has inertia, for which integrator must be euler or "
                "midpoint",
                id, fluid_id);
-  if (fluid_fix->has_inertia() && control.active())
+  if (fluid_fix->has_inertia() && steady->adaptive())
     error->all(FLERR, "Fix rbc/ib {} adapt needs fix rbc/fluid {} inertia none", id, fluid_id);
   if (scheme == Scheme::DIRECT) {
     if (!fluid_fix->has_inertia())
@@ -227,6 +220,12 @@ void FixRBCIB::init()
   bool before = true;
   for (Fix *fix : modify->get_fix_list()) {
     if (fix == this) before = false;
+    if (before && steady->adaptive() && (modify->get_fix_mask(fix) & INITIAL_INTEGRATE))
+      error->all(
+          FLERR,
+          "Fix rbc/ib {} with adapt must be defined before fix {} {}, which moves atoms by the "
+          "timestep",
+          id, fix->style, fix->id);
     if (!before && (modify->get_fix_mask(fix) & POST_FORCE)) late_forces = true;
     auto membrane = dynamic_cast<FixRBCMembrane *>(fix);
     if (!membrane) continue;
@@ -240,14 +239,10 @@ void FixRBCIB::init()
     error->all(FLERR, "Fix rbc/ib {}: membranes with viscosity need fix rbc/fluid {} inertia none",
                id, fluid_id);
   if (iterates && scheme != Scheme::DIRECT && !viscous)
-    error->all(FLERR, "Fix rbc/ib tol and maxiter need scheme direct, integrator implicit or a fix "
-                      "rbc/membrane with viscosity");
+    error->all(FLERR, "Fix rbc/ib tol and maxiter need scheme direct or a fix rbc/membrane with "
+                      "viscosity");
   motion->connect(fluid_fix, membranes);
-  if (control.active()) {
-    control.smallest = 1e-6 * control.largest;
-    if (next_dt == 0) next_dt = std::min(update->dt, control.largest);
-    set_timestep(next_dt);
-  }
+  steady->start_run(fluid_fix, late_forces);
 }
 
 /* ----------------------------------------------------------------------
@@ -277,11 +272,7 @@ void FixRBCIB::setup_post_neighbor()
 void FixRBCIB::post_neighbor()
 {
   motion->find_markers();
-  if (integrator != Integrator::RKC || chebyshev.past_steps() == 0) return;
-  known_steps = chebyshev.past_steps();
-  for (int i : motion->members())
-    known_steps = std::min(known_steps, static_cast<int>(store->astore[i][KNOWN]));
-  MPI_Allreduce(MPI_IN_PLACE, &known_steps, 1, MPI_INT, MPI_MIN, world);
+  steady->atoms_migrated();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -290,8 +281,7 @@ void FixRBCIB::setup(int /*vflag*/)
 {
   fluid_fix->drive_at_setup();
   first_step = update->ntimestep;
-  unconverged = rejected = motion->unconverged = 0;
-  radius_step = -1;
+  unconverged = motion->unconverged = 0;
   if (!fluid_fix->has_inertia())
     motion->update_velocities(Stage::START);
   else if (scheme == Scheme::ELASTIC && fluid_fix->flow().steps() == 0)
@@ -303,227 +293,20 @@ void FixRBCIB::setup(int /*vflag*/)
   fluid_fix->count_from_here();
 }
 
-/* ----------------------------------------------------------------------
-   velocities hold those of the flow at the start of the step
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 void FixRBCIB::initial_integrate(int /*vflag*/)
 {
-  if (fluid_fix->has_inertia()) {
+  if (inertia)
     advance_with_inertia();
-    return;
-  }
-  if (late_forces && update->ntimestep == first_step + 1) motion->update_velocities(Stage::START);
-  if (control.active()) set_timestep(next_dt);
-
-  motion->load(atom->x, start);
-  motion->load(atom->v, velocity);
-  bool again = false;
-  do {
-    fluid_fix->begin_step(again);
-    advance();
-    again = true;
-  } while (control.active() && !accept_step());
-  motion->store(position, atom->x);
-  motion->check_positions();
-  if (stored() > 0) remember();
-  last_dt = update->dt;
-}
-
-/* ----------------------------------------------------------------------
-   positions at the end of the step from those and the velocities at its start
-------------------------------------------------------------------------- */
-
-void FixRBCIB::advance()
-{
-  const double dt = update->dt;
-  const auto move = [&](double span, const rbc::Numbers &by) {
-    position.resize(start.size());
-    for (std::size_t i = 0; i < start.size(); ++i) position[i] = start[i] + span * by[i];
-  };
-
-  if (integrator == Integrator::EULER)
-    move(dt, velocity);
-  else if (integrator == Integrator::MIDPOINT) {
-    move(0.5 * dt, velocity);
-    middle = velocity;
-    motion->velocity(position, 0.5, middle);
-    move(dt, middle);
-  } else if (integrator == Integrator::AB2)
-    advance_ab2();
   else
-    advance_chebyshev();
+    steady->advance();
 }
-
-/* ----------------------------------------------------------------------
-   an atom without a past takes an Euler step
-------------------------------------------------------------------------- */
-
-void FixRBCIB::advance_ab2()
-{
-  const double dt = update->dt, ratio = last_dt > 0 ? 0.5 * dt / last_dt : 0;
-  position.resize(start.size());
-  const std::vector<int> &members = motion->members();
-  for (std::size_t n = 0; n < members.size(); ++n) {
-    const double *const past = store->astore[members[n]];
-    const double weight = past[KNOWN] > 0 ? ratio : 0;
-
-    for (int d = 0; d < 3; ++d) {
-      const double now = velocity[3 * n + d];
-      position[3 * n + d] = start[3 * n + d] + dt * (now + weight * (now - past[PAST + d]));
-    }
-  }
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixRBCIB::advance_chebyshev()
-{
-  if (automatic_stages && (radius_step < 0 || update->ntimestep >= radius_step + RADIUS_EVERY))
-    estimate_radius();
-
-  const int past_steps = chebyshev.past_steps();
-  path.clear(past_steps);
-  if (update->dt > LARGEST_GROWTH * past_dt[0]) known_steps = 0;
-  for (int n = 0; n < known_steps; ++n) {
-    path.span(n) = past_dt[n];
-    motion->load(store->astore, path.moved(n), PAST + 3 * n);
-  }
-  path.set_steps(known_steps);
-  if (known_steps < past_steps) {
-    start_chebyshev();
-    return;
-  }
-  choose_stages(update->dt);
-  chebyshev.step(*motion, update->dt, start, velocity, path, position);
-}
-
-/* ----------------------------------------------------------------------
-   order above 2: without a past the step is divided, so that it is as accurate as those that follow
-------------------------------------------------------------------------- */
-
-void FixRBCIB::start_chebyshev()
-{
-  const double part = 1.0 / STARTING_PARTS, dt = part * update->dt;
-  const rbc::Path none;
-  choose_stages(dt);
-  position = start;
-  middle = velocity;
-  for (int n = 0; n < STARTING_PARTS; ++n) {
-    if (n > 0) motion->velocity(position, n * part, middle);
-    scratch = position;
-    chebyshev.step(*motion, dt, scratch, middle, none, position, n * part, part);
-  }
-}
-
-/* ----------------------------------------------------------------------
-   what the next steps need to know of this one
-------------------------------------------------------------------------- */
-
-void FixRBCIB::remember()
-{
-  const std::vector<int> &members = motion->members();
-  if (integrator == Integrator::AB2) {
-    motion->store(velocity, store->astore, PAST);
-    for (int i : members) store->astore[i][KNOWN] = 1;
-    return;
-  }
-  const int past_steps = chebyshev.past_steps();
-  if (past_steps == 0) return;
-  known_steps = std::min(known_steps + 1, past_steps);
-  std::rotate(past_dt.begin(), past_dt.end() - 1, past_dt.end());
-  past_dt[0] = update->dt;
-  for (std::size_t n = 0; n < members.size(); ++n) {
-    double *const past = store->astore[members[n]];
-    std::copy_backward(past + PAST, past + PAST + 3 * (past_steps - 1),
-                       past + PAST + 3 * past_steps);
-    for (int d = 0; d < 3; ++d) past[PAST + d] = position[3 * n + d] - start[3 * n + d];
-    past[KNOWN] = known_steps;
-  }
-}
-
-/* ----------------------------------------------------------------------
-   integrator rkc auto
-------------------------------------------------------------------------- */
-
-void FixRBCIB::estimate_radius()
-{
-  motion->load(store->astore, middle, mode_column());
-  if (!(dot(*motion, middle, middle) > 0)) {
-    // a guess without any symmetry
-    const std::vector<int> &members = motion->members();
-    for (std::size_t i = 0; i < middle.size(); ++i)
-      middle[i] = std::sin(1.0 + 12.9898 * static_cast<double>(i % 3) +
-                           78.233 * static_cast<double>(atom->tag[members[i / 3]]));
-  }
-  const double size = RADIUS_DISPLACEMENT * fluid_fix->smallest_spacing() *
-                      std::sqrt(dot(*motion, middle, middle)) / root_mean_square(*motion, middle);
-  radius = RADIUS_SAFETY * spectrum.estimate(*motion, start, velocity, size, middle);
-  if (!std::isfinite(radius))
-    error->all(FLERR, "Fix rbc/ib {}: the spectral radius is not a number at step {}", id,
-               update->ntimestep);
-  motion->store(middle, store->astore, mode_column());
-  radius_step = update->ntimestep;
-}
-
-void FixRBCIB::choose_stages(double dt)
-{
-  if (automatic_stages) chebyshev.set_stages(chebyshev.stages_for(dt * radius));
-}
-
-/* ----------------------------------------------------------------------
-   whether the local error is within its bound, and the timestep that this error suggests
-------------------------------------------------------------------------- */
-
-bool FixRBCIB::accept_step()
-{
-  middle = velocity;
-  motion->velocity(position, 1.0, middle);
-  velocities_known = true;
-  last_error =
-      rbc::StepControl::error(*motion, update->dt, start, position, velocity, middle, scratch);
-  next_dt = control.next(update->dt, last_error);
-  if (last_error <= control.tolerance) return true;
-
-  ++rejected;
-  if (next_dt < control.smallest)
-    error->all(
-        FLERR,
-        "Fix rbc/ib {}: no timestep above {:.3g} meets the error {:.3g} of adapt at step {}; "
-        "the local error is {:.3g}",
-        id, control.smallest, control.tolerance, update->ntimestep, last_error);
-  set_timestep(next_dt);
-  return false;
-}
-
-/* ----------------------------------------------------------------------
-   of the step that ends at update->ntimestep, as fix dt/reset does
-------------------------------------------------------------------------- */
-
-void FixRBCIB::set_timestep(double dt)
-{
-  if (dt == update->dt) return;
-  const bigint begin = std::max(update->ntimestep - (update->setupflag ? 0 : 1), update->atimestep);
-  update->atime += (begin - update->atimestep) * update->dt;
-  update->atimestep = begin;
-  update->dt = dt;
-  update->dt_default = 0;
-  if (force->pair) force->pair->reset_dt();
-  for (Fix *fix : modify->get_fix_list()) fix->reset_dt();
-  output->reset_dt();
-}
-
-/* ---------------------------------------------------------------------- */
 
 void FixRBCIB::final_integrate()
 {
-  if (fluid_fix->has_inertia()) return;
-  fluid_fix->drive_now();
-  if (velocities_known)
-    motion->keep_volume(Stage::START);
-  else
-    motion->update_velocities(Stage::START);
-  velocities_known = false;
+  if (!inertia) steady->finish();
+  motion->stop->check();
 }
 
 /* ----------------------------------------------------------------------
@@ -542,13 +325,15 @@ void FixRBCIB::advance_with_inertia()
     for (std::size_t i = 0; i < start.size(); ++i) position[i] = start[i] + span * velocity[i];
     motion->store(position, atom->x);
     motion->check_positions();
+    motion->stop->check();
   };
-  if (integrator == Integrator::MIDPOINT) {
+  if (steady->method() == Integrator::MIDPOINT) {
     move(0.5 * update->dt);
     motion->recompute_forces();
   }
   step_fluid();
   move(update->dt);
+  last_dt = update->dt;
 }
 
 /* ----------------------------------------------------------------------
@@ -595,7 +380,7 @@ void FixRBCIB::couple_masses()
   for (int i : motion->members()) {
     const double mass = atom->rmass ? atom->rmass[i] : atom->mass[atom->type[i]];
     if (!(mass > 0))
-      motion->stop(i, fmt::format("has mass {}; scheme direct needs a mass > 0", mass));
+      motion->report(i, fmt::format("has mass {}; scheme direct needs a mass > 0", mass));
     const int steps = static_cast<int>(history[i][STEPS]);
     const double span = steps == 0 ? 0.5 * dt : between;
     const double r = steps > 1 ? span / last_between : 1;
@@ -612,12 +397,14 @@ void FixRBCIB::couple_masses()
     }
     history[i][STEPS] = std::min(steps + 1, 2);
   }
+  motion->stop->check();
 
   const auto outcome = direct.advance(fluid_fix->flow(), dt,
                                       {kernel, motion->markers(), motion->rows(atom->x),
                                        applied.data(), resistance.data(), target.data(),
                                        inertial.data(), motion->rows(atom->v), atom->nlocal});
-  if (outcome.outside >= 0) motion->stop_outside(outcome.outside);
+  if (outcome.outside >= 0) motion->report_outside(outcome.outside);
+  motion->stop->check();
   coupling_error = outcome.error;
   if (!(outcome.error <= direct.tolerance)) ++unconverged;
 
@@ -629,7 +416,6 @@ void FixRBCIB::couple_masses()
           target[3 * i + d] - inertial[3 * i + d] / resistance[i] - atom->v[i][d];
       exerted[d] += applied[3 * i + d] + inertial[3 * i + d];
     }
-  last_dt = dt;
   last_between = between;
 }
 
@@ -644,15 +430,15 @@ double FixRBCIB::compute_vector(int n)
     case 3:
       return coupling_error;
     case 4:
-      return integrator == Integrator::RKC ? chebyshev.stages() : 0;
+      return steady->stages();
     case 5:
-      return radius;
+      return steady->radius();
     case 6:
-      return last_error;
+      return steady->local_error();
     case 7:
-      return static_cast<double>(rejected);
+      return static_cast<double>(steady->rejected());
     case 8:
-      return last_dt;
+      return inertia ? last_dt : steady->last_dt();
   }
   double sum = 0;
   if (scheme == Scheme::DIRECT)
@@ -668,8 +454,9 @@ double FixRBCIB::compute_vector(int n)
 void FixRBCIB::write_restart(FILE *fp)
 {
   if (comm->me != 0) return;
-  double state[NSTATE] = {last_dt, last_between, next_dt};
-  std::copy(past_dt.begin(), past_dt.end(), state + 3);
+  double state[NSTATE] = {last_dt, last_between};
+  const SteadySteps::State steps = steady->state();
+  std::copy(steps.begin(), steps.end(), state + 2);
   const int size = sizeof(state);
   fwrite(&size, sizeof(int), 1, fp);
   fwrite(state, sizeof(double), NSTATE, fp);
@@ -680,8 +467,7 @@ void FixRBCIB::restart(char *buffer)
   const auto state = reinterpret_cast<const double *>(buffer);
   last_dt = state[0];
   last_between = state[1];
-  next_dt = state[2];
-  std::copy_n(state + 3, past_dt.size(), past_dt.begin());
+  steady->restart(state + 2);
 }
 
 /* ----------------------------------------------------------------------
@@ -731,9 +517,9 @@ void FixRBCIB::post_run()
 
 double FixRBCIB::memory_usage()
 {
-  std::size_t numbers = direct.numbers() + motion->numbers() + chebyshev.numbers() + path.numbers();
+  std::size_t numbers = direct.numbers() + motion->numbers() + steady->numbers();
   for (const auto *vector :
-       {&start, &velocity, &middle, &position, &scratch, &applied, &resistance, &target, &inertial})
+       {&start, &velocity, &position, &applied, &resistance, &target, &inertial})
     numbers += vector->capacity();
   return static_cast<double>(motion->members().capacity() * sizeof(int) + numbers * sizeof(double));
 }

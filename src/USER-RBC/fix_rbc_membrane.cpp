@@ -39,6 +39,7 @@ FixRBCMembrane::FixRBCMembrane(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, nar
   restart_global = swelling.varies() ? 1 : 0;
   cells =
       std::make_unique<LocalCells>(lmp, *surface, groupbit, fmt::format("Fix rbc/membrane {}", id));
+  own_stop = std::make_shared<CollectiveStop>(lmp);
   x.resize(surface->size());
   f.resize(surface->size());
   if (is_viscous()) {
@@ -176,6 +177,7 @@ void FixRBCMembrane::init()
     error->all(FLERR, "Fix rbc/membrane cannot be used with run_style respa");
   if (update->whichflag == 2) error->all(FLERR, "Fix rbc/membrane cannot be used with minimize");
   swelling.check(lmp, "fix rbc/membrane swell");
+  stop = own_stop;
   cells->find();
   for (Fix *other : modify->get_fix_by_style("^rbc/membrane$")) {
     if (other == this) break;
@@ -242,14 +244,13 @@ void FixRBCMembrane::post_force(int vflag)
   const auto &local = cells->cells();
   for (std::size_t c = 0; c < local.size(); ++c) {
     take(local[c]);
-    if (measuring) {
-      if (local[c].shared < 0) store_size(c);
-      check(local[c], sizes[2 * c + 1]);
-    }
+    if (measuring && local[c].shared < 0) store_size(c);
+    check(local[c], measuring ? sizes[2 * c + 1] : surface->volume);
     add_forces(local[c], {sizes[2 * c], sizes[2 * c + 1]});
   }
-  if (is_viscous()) add_viscous_forces(true);
   stopwatch.stop();
+  if (is_viscous()) add_viscous_forces(true);
+  if (stop == own_stop) stop->check();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -304,9 +305,9 @@ void FixRBCMembrane::measure_shared_cells()
 
 void FixRBCMembrane::check(const LocalCells::Cell &cell, double volume)
 {
-  const int inverted = model->find_inverted();
-  if (inverted >= 0) stop(cell, fmt::format("triangle {} is inverted", inverted + 1));
-  if (volume <= 0) stop(cell, "the cell turned inside out");
+  const std::string flaw = model->find_flaw();
+  if (!flaw.empty()) report(cell, flaw);
+  if (volume <= 0) report(cell, "the cell turned inside out");
 }
 
 /* ---------------------------------------------------------------------- */
@@ -314,7 +315,7 @@ void FixRBCMembrane::check(const LocalCells::Cell &cell, double volume)
 void FixRBCMembrane::add_forces(const LocalCells::Cell &cell, const rbc::CellSize &size)
 {
   const rbc::MembraneEnergy share = model->forces(size, f);
-  if (!std::isfinite(share.total())) stop(cell, "the energy of the membrane is not a number");
+  if (!std::isfinite(share.total())) report(cell, "the energy of the membrane is not a number");
   energy.sheet += share.sheet;
   energy.bending += share.bending;
   energy.area += share.area;
@@ -344,11 +345,13 @@ void FixRBCMembrane::add_to_atoms(const LocalCells::Cell &cell, bool with_virial
 
 void FixRBCMembrane::add_viscous_forces(bool with_virial)
 {
+  stopwatch.start();
   if (comm->nprocs > 1) comm->forward_comm(this);
   for (const LocalCells::Cell &cell : cells->cells()) {
     viscous_forces(cell);
     add_to_atoms(cell, with_virial);
   }
+  stopwatch.stop();
 }
 
 /* ----------------------------------------------------------------------
@@ -423,7 +426,7 @@ void FixRBCMembrane::keep_volume(double dt, bool new_step, bool mid_step)
 
   for (std::size_t c = 0; c < local.size(); ++c) {
     const LocalCells::Cell &cell = local[c];
-    if (!(sums[3 * c + 2] > 0)) stop(cell, "the cell turned inside out");
+    if (!(sums[3 * c + 2] > 0)) report(cell, "the cell turned inside out");
     if (new_step) volume_rates[c] = (rest - sums[3 * c + 2]) / (VOLUME_STEPS * dt);
     const double factor = (volume_rates[c] + rest_rate - sums[3 * c]) / sums[3 * c + 1];
     const Vec3 *const gradient = &volume_gradient[c * size];
@@ -438,14 +441,14 @@ void FixRBCMembrane::keep_volume(double dt, bool new_step, bool mid_step)
 
 /* ---------------------------------------------------------------------- */
 
-void FixRBCMembrane::stop(const LocalCells::Cell &cell, const std::string &what)
+void FixRBCMembrane::report(const LocalCells::Cell &cell, const std::string &what)
 {
   Vec3 centre = cell.origin;
   domain->remap(centre.data());
-  error->one(
-      FLERR,
+  stop->report(fmt::format(
       "Fix rbc/membrane {}: {} at step {}: cell with molecule ID {} near ({:.6g}, {:.6g}, {:.6g})",
-      id, what, update->ntimestep, cells->molecules()[cell.index], centre[0], centre[1], centre[2]);
+      id, what, update->ntimestep, cells->molecules()[cell.index], centre[0], centre[1],
+      centre[2]));
 }
 
 /* ---------------------------------------------------------------------- */

@@ -50,9 +50,14 @@ class FixRBCMembrane : public Fix {
   const rbc::MembraneModel &membrane_model() const { return *model; }
   LocalCells &local_cells() { return *cells; }
 
+  // used by fix rbc/ib: which checks for errors from then on, in this run
+
+  void report_to(const std::shared_ptr<CollectiveStop> &driver) { stop = driver; }
+
   rbc::Stopwatch stopwatch;
 
  private:
+  std::shared_ptr<CollectiveStop> stop, own_stop;
   std::unique_ptr<rbc::SurfaceTemplate> surface;
   std::unique_ptr<rbc::MembraneModel> model;
   std::unique_ptr<LocalCells> cells;
@@ -79,7 +84,7 @@ class FixRBCMembrane : public Fix {
   void measure_shared_cells();
   void check(const LocalCells::Cell &, double volume);
   void add_forces(const LocalCells::Cell &, const rbc::CellSize &);
-  [[noreturn]] void stop(const LocalCells::Cell &, const std::string &);
+  void report(const LocalCells::Cell &, const std::string &);
   const rbc::MembraneEnergy &total_energy();
 };
 

@@ -14,6 +14,10 @@ namespace rbc {
 
 namespace {
 
+// cosine of the angle between the normals of two triangles: 175 degrees
+
+constexpr double SHARPEST_FOLD = -0.9962;
+
 inline PlainVector position(const double *x, int vertex)
 {
   return {x[3 * vertex], x[3 * vertex + 1], x[3 * vertex + 2]};
@@ -77,16 +81,23 @@ void MembraneModel::volume_gradient(Vec3 *gradient) const
   }
 }
 
-int MembraneModel::find_inverted()
+std::string MembraneModel::find_flaw()
 {
   const std::vector<int> &left = elements_->left, &right = elements_->right;
+  const int hinges = static_cast<int>(elements_->hinges.size());
+  const auto number = [&](int t) { return std::to_string(elements_->triangles[t] + 1); };
+  std::string flaw;
   std::fill(folded_.begin(), folded_.end(), 0);
-  for (std::size_t e = 0; e < elements_->hinges.size(); ++e) {
-    if (dot(normal_[left[e]], normal_[right[e]]) >= 0) continue;
+  for (int e = 0; e < hinges; ++e) {
+    const double cosine = dot(normal_[left[e]], normal_[right[e]]);
+    if (cosine >= 0) continue;
+    if (cosine < SHARPEST_FOLD && flaw.empty())
+      flaw = "triangles " + number(left[e]) + " and " + number(right[e]) +
+             " are folded onto each other";
     for (int t : {left[e], right[e]})
-      if (++folded_[t] == 3) return elements_->triangles[t];
+      if (++folded_[t] == 3) return "triangle " + number(t) + " is inverted";
   }
-  return -1;
+  return flaw;
 }
 
 MembraneEnergy MembraneModel::forces(const CellSize &size, std::vector<Vec3> &f)
@@ -171,9 +182,12 @@ MembraneEnergy MembraneModel::load(const Law &law, const CellSize &size)
   if constexpr (form == BendingForm::helfrich) energy.bending = bend_vertices();
 
   const CellElements &elements = *elements_;
-  const auto &[i, j, k] = elements.corners;
-  const auto &[facing_i, facing_j, facing_k] = elements.opposite;
-  const auto &[share_i, share_j, share_k] = shape_.corner_share;
+  // names, not structured bindings, which lambdas of C++17 cannot capture
+  const auto &i = elements.corners[0], &j = elements.corners[1], &k = elements.corners[2];
+  const auto &facing_i = elements.opposite[0], &facing_j = elements.opposite[1],
+             &facing_k = elements.opposite[2];
+  const auto &share_i = shape_.corner_share[0], &share_j = shape_.corner_share[1],
+             &share_k = shape_.corner_share[2];
   const double area_strain = (size.area - shape_.area) / shape_.area;
   const double volume_strain = (size.volume - rest_volume_) / rest_volume_;
   const double global_tension =

@@ -7,6 +7,7 @@
 #include "surface_template.h"
 #include "vector_array.h"
 
+#include <string>
 #include <variant>
 
 namespace rbc {
@@ -62,8 +63,9 @@ class MembraneModel {
   /// dV/dx of the vertices owned (others are left undefined), an entry for each vertex of the template.
   void volume_gradient(Vec3 *gradient) const;
 
-  /// A triangle that lies folded over against all three neighbours, or -1.
-  int find_inverted();
+  /// Says which triangle lies folded over against all three neighbours, or which two are folded onto each other: the mesh
+  /// does not resolve the shape, or parts of it have passed through others. Empty if there are none.
+  std::string find_flaw();
 
   /// Forces on the vertices owned (others are left undefined) and this rank's share of the energy. `size` is that of
   /// the whole cell.

@@ -1,6 +1,7 @@
 #include "membrane_viscosity.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 namespace rbc {
@@ -10,8 +11,8 @@ double viscous_forces(const SurfaceTemplate &shape, double viscosity, const Cell
 {
   std::fill(f.begin(), f.end(), Vec3::Zero());
   double power = 0;
-  for (int t : elements.triangles) {
-    const auto &[i, j, k] = shape.triangles[t];
+  for (int n = 0; n < elements.loaded; ++n) {
+    const auto &[i, j, k] = shape.triangles[elements.triangles[n]];
     const Vec3 e1 = x[j] - x[i], e2 = x[k] - x[i], w1 = v[j] - v[i], w2 = v[k] - v[i];
     Eigen::Matrix2d metric, rate;
     metric << e1.squaredNorm(), e1.dot(e2), e1.dot(e2), e2.squaredNorm();

@@ -89,16 +89,19 @@ void LocalCells::bind(bool bending)
   const int size = shape.size();
   std::vector<int> slot(molecule_ids.size(), -1);
   std::vector<int> owned_count;
+  CollectiveStop stop(lmp);
   local.clear();
   atoms.clear();
 
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & groupbit)) continue;
     const auto found = index_of.find(atom->molecule[i]);
-    if (found == index_of.end())
-      error->one(FLERR,
-                 "{}: atom {} belongs to molecule {}, which was not there at the start of the run",
-                 style, atom->tag[i], atom->molecule[i]);
+    if (found == index_of.end()) {
+      stop.report(fmt::format(
+          "{}: atom {} belongs to molecule {}, which was not there at the start of the run", style,
+          atom->tag[i], atom->molecule[i]));
+      continue;
+    }
     const int index = found->second;
     if (slot[index] < 0) {
       slot[index] = static_cast<int>(local.size());
@@ -110,7 +113,9 @@ void LocalCells::bind(bool bending)
     atoms[std::size_t(slot[index]) * size + (atom->tag[i] - first_ids[index])] = i;
   }
 
+  stop.check();
   check_complete(owned_count);
+  unwrap();
 
   offsets.assign(atoms.size(), Vec3::Zero());
   parts.clear();
@@ -129,19 +134,12 @@ void LocalCells::bind(bool bending)
     if (owned_count[c] == size) continue;
 
     is_part[c] = 1;
-    place_neighbours(at, first_ids[local[c].index], owned, bending ? 2 : 1);
+    find_neighbours(at, first_ids[local[c].index], owned, bending ? 2 : 1);
     parts.push_back(rbc::CellElements::part(shape, std::move(owned), bending));
     local[c].elements = &parts.back();
-    for (int t : parts.back().triangles)
-      for (int v : shape.triangles[t])
-        if (atoms[at + v] < 0)
-          error->one(FLERR,
-                     "{}: ghost cutoff {} is too short for the cell with molecule ID {}: a "
-                     "neighbour of its vertices is "
-                     "unknown; use comm_modify cutoff (at least {})",
-                     style, comm->get_comm_cutoff(), molecule_ids[local[c].index],
-                     (bending ? 3 : 2) * shape.longest_edge);
+    check_neighbours(c, bending ? 3 : 2, stop);
   }
+  stop.check();
   find_shared(is_part);
   set_origins();
 }
@@ -183,11 +181,28 @@ void LocalCells::check_complete(const std::vector<int> &owned_count) const
 }
 
 /* ----------------------------------------------------------------------
-   vertices of other ranks within some rings of the owned ones, each next to its neighbour
+   positions of all atoms here, of ghosts too: which image of a vertex is the cell's own does not depend on how far it is
 ------------------------------------------------------------------------- */
 
-void LocalCells::place_neighbours(std::size_t at, tagint first, const std::vector<char> &owned,
-                                  int rings)
+void LocalCells::unwrap()
+{
+  if (comm->nprocs == 1) return;
+  const int all = atom->nlocal + atom->nghost;
+  unwrapped.resize(3 * std::size_t(all));
+  unwrapped_rows.resize(all);
+  for (int i = 0; i < all; ++i) {
+    unwrapped_rows[i] = &unwrapped[3 * std::size_t(i)];
+    if (i < atom->nlocal) domain->unmap(atom->x[i], atom->image[i], unwrapped_rows[i]);
+  }
+  comm->forward_comm_array(3, unwrapped_rows.data());
+}
+
+/* ----------------------------------------------------------------------
+   vertices of other ranks within some rings of the owned ones
+------------------------------------------------------------------------- */
+
+void LocalCells::find_neighbours(std::size_t at, tagint first, const std::vector<char> &owned,
+                                 int rings)
 {
   std::vector<int> front;
   for (int v = 0; v < shape.size(); ++v)
@@ -199,17 +214,36 @@ void LocalCells::place_neighbours(std::size_t at, tagint first, const std::vecto
         if (atoms[at + w] >= 0) continue;
         const int j = atom->map(first + w);
         if (j < 0) continue;
-        const double *from = atom->x[atoms[at + v]], *to = atom->x[j];
-        for (int d = 0; d < 3; ++d) {
-          const double near = from[d] + offsets[at + v][d] - to[d];
+        for (int d = 0; d < 3; ++d)
           offsets[at + w][d] =
-              domain->periodicity[d] ? std::round(near / domain->prd[d]) * domain->prd[d] : 0;
-        }
+              std::round((unwrapped_rows[j][d] - atom->x[j][d]) / domain->prd[d]) * domain->prd[d];
         atoms[at + w] = j;
         next.push_back(w);
       }
     front = std::move(next);
   }
+}
+
+/* ----------------------------------------------------------------------
+   LAMMPS may not have sent all of them here
+------------------------------------------------------------------------- */
+
+void LocalCells::check_neighbours(std::size_t c, int rings, CollectiveStop &stop) const
+{
+  const int *const known = local[c].atom;
+  int owned = -1;
+  for (int v = 0; v < shape.size() && owned < 0; ++v)
+    if (local[c].elements->owned[v]) owned = known[v];
+  const double *const near = atom->x[owned];
+  for (int t : local[c].elements->triangles)
+    for (int v : shape.triangles[t])
+      if (known[v] < 0)
+        return stop.report(fmt::format(
+            "{}: ghost cutoff {} is too short at step {} for the cell with molecule ID {} near "
+            "({:.6g}, {:.6g}, {:.6g}): a neighbour of its vertices is unknown; its edges are "
+            "stretched too far, or use comm_modify cutoff (at rest at least {})",
+            style, comm->get_comm_cutoff(), update->ntimestep, molecule_ids[local[c].index],
+            near[0], near[1], near[2], rings * shape.longest_edge));
 }
 
 void LocalCells::find_shared(const std::vector<char> &is_part)

@@ -4,6 +4,7 @@
 #include "lmptype.h"
 #include "membrane_model.h"
 #include "pointers.h"
+#include "rbc_collective_stop.h"
 
 #include <unordered_map>
 #include <vector>
@@ -59,9 +60,13 @@ class LocalCells : protected Pointers {
   std::vector<int>
       shared;    ///< indices of the cells that several ranks share, the same on all ranks
   std::vector<double> buffer;
+  std::vector<double> unwrapped;    ///< positions of all atoms here, if there are several ranks
+  std::vector<double *> unwrapped_rows;
 
   void check_complete(const std::vector<int> &owned_count) const;
-  void place_neighbours(std::size_t at, tagint first, const std::vector<char> &owned, int rings);
+  void unwrap();
+  void find_neighbours(std::size_t at, tagint first, const std::vector<char> &owned, int rings);
+  void check_neighbours(std::size_t c, int rings, CollectiveStop &stop) const;
   void find_shared(const std::vector<char> &is_part);
   void set_origins();
   rbc::Vec3 image_shift(int i) const;

@@ -6,7 +6,6 @@
 #include "comm.h"
 #include "dihedral.h"
 #include "domain.h"
-#include "error.h"
 #include "fix_rbc_fluid.h"
 #include "fix_rbc_membrane.h"
 #include "force.h"
@@ -16,6 +15,7 @@
 #include "pair.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -25,7 +25,8 @@ using rbc::Numbers;
 /* ---------------------------------------------------------------------- */
 
 MarkerMotion::MarkerMotion(LAMMPS *lmp, std::string style, int groupbit, fluid::KernelKind kernel) :
-    Pointers(lmp), style_(std::move(style)), groupbit_(groupbit), kernel_(kernel)
+    Pointers(lmp), stop(std::make_shared<CollectiveStop>(lmp)), style_(std::move(style)),
+    groupbit_(groupbit), kernel_(kernel)
 {
 }
 
@@ -37,6 +38,7 @@ void MarkerMotion::connect(FixRBCFluid *fluid, const std::vector<FixRBCMembrane 
   for (FixRBCMembrane *membrane : membranes) {
     if (membrane->keeps_volume()) keepers_.push_back(membrane);
     if (membrane->is_viscous()) viscous_.push_back(membrane);
+    membrane->report_to(stop);
   }
 }
 
@@ -85,8 +87,9 @@ void MarkerMotion::spread_forces()
   spreading.start();
   flow.clear_force();
   const int outside = flow.spread(kernel_, markers(), rows(atom->x), rows(atom->f), force->ftm2v);
-  if (outside >= 0) stop_outside(outside);
+  if (outside >= 0) report_outside(outside);
   spreading.stop();
+  stop->check();
 
   exchanging.start();
   flow.gather_force();
@@ -121,9 +124,8 @@ void MarkerMotion::interpolate(Stage stage)
 
 void MarkerMotion::keep_volume(Stage stage)
 {
-  const bool mid_step = stage == Stage::MIDDLE || fluid_->has_inertia();
   for (FixRBCMembrane *membrane : keepers_)
-    membrane->keep_volume(update->dt, stage == Stage::START, mid_step);
+    membrane->keep_volume(update->dt, stage == Stage::START, fluid_->has_inertia());
 }
 
 void MarkerMotion::velocities_of_forces(Stage stage)
@@ -140,7 +142,7 @@ void MarkerMotion::velocities_of_forces(Stage stage)
 
 void MarkerMotion::update_velocities(Stage stage)
 {
-  if (viscous_.empty()) {
+  if (viscous_.empty() || probing) {
     velocities_of_forces(stage);
     check_velocities();
     return;
@@ -183,6 +185,7 @@ void MarkerMotion::update_velocities(Stage stage)
 void MarkerMotion::velocity(const Numbers &x, double fraction, Numbers &v)
 {
   store(x, atom->x);
+  if (probing) std::fill(v.begin(), v.end(), 0.0);
   store(v, atom->v);
   check_positions();
   fluid_->drive_at(fraction);
@@ -244,43 +247,64 @@ void MarkerMotion::recompute_forces()
    LAMMPS would delete what is beyond a plate when atoms migrate
 ------------------------------------------------------------------------- */
 
-void MarkerMotion::check_positions() const
+void MarkerMotion::check_positions()
 {
   if (domain->zperiodic) return;
   double **const x = atom->x;
   for (int i : members_)
-    if (x[i][2] < domain->boxlo[2] || x[i][2] >= domain->boxhi[2]) stop(i, "went through a plate");
+    if (!(x[i][2] >= domain->boxlo[2] && x[i][2] < domain->boxhi[2]))
+      return report(i, "went through a plate");
 }
 
 /* ---------------------------------------------------------------------- */
 
-void MarkerMotion::check_velocities() const
+double MarkerMotion::longest_step() const
+{
+  double fastest2 = 0;
+  for (int i : members_) {
+    const double *const v = atom->v[i];
+    fastest2 = std::max(fastest2, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &fastest2, 1, MPI_DOUBLE, MPI_MAX, world);
+  return 0.5 * courant * fluid_->smallest_spacing() / std::sqrt(fastest2);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void MarkerMotion::check_velocities()
+{
+  report_too_fast();
+  stop->check();
+}
+
+void MarkerMotion::report_too_fast()
 {
   const double fastest = courant * fluid_->smallest_spacing() / update->dt;
   double **const v = atom->v;
   for (int i : members_) {
     const double speed2 = v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2];
-    if (speed2 <= fastest * fastest) continue;
+    if (std::isfinite(speed2) && (probing || speed2 <= fastest * fastest)) continue;
     if (std::isfinite(speed2))
-      stop(i, fmt::format("would cross {:.3g} fluid cells in a step (CFL above {}; timestep too "
-                          "large or unstable)",
-                          courant * std::sqrt(speed2) / fastest, courant));
-    stop(i, "has a velocity that is not a number");
+      return report(i,
+                    fmt::format("would cross {:.3g} fluid cells in a step (CFL above {}; timestep "
+                                "too large or unstable)",
+                                courant * std::sqrt(speed2) / fastest, courant));
+    return report(i, "has a velocity that is not a number");
   }
 }
 
-void MarkerMotion::stop_outside(int i) const
+void MarkerMotion::report_outside(int i)
 {
-  stop(i, "left the fluid its MPI task holds (reneighboring too rare, see neigh_modify)");
+  report(i, "left the fluid its MPI task holds (reneighboring too rare, see neigh_modify)");
 }
 
-void MarkerMotion::stop(int i, const std::string &what) const
+void MarkerMotion::report(int i, const std::string &what)
 {
   double **const x = atom->x;
-  error->one(FLERR,
-             "{}: vertex with atom ID {} {} at step {}: molecule ID {} at ({:.6g}, {:.6g}, {:.6g})",
-             style_, atom->tag[i], what, update->ntimestep,
-             atom->molecule_flag ? atom->molecule[i] : 0, x[i][0], x[i][1], x[i][2]);
+  stop->report(fmt::format(
+      "{}: vertex with atom ID {} {} at step {}: molecule ID {} at ({:.6g}, {:.6g}, {:.6g})",
+      style_, atom->tag[i], what, update->ntimestep, atom->molecule_flag ? atom->molecule[i] : 0,
+      x[i][0], x[i][1], x[i][2]));
 }
 
 /* ---------------------------------------------------------------------- */

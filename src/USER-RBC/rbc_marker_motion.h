@@ -4,8 +4,10 @@
 #include "coupling.h"
 #include "gmres.h"
 #include "pointers.h"
+#include "rbc_collective_stop.h"
 #include "stopwatch.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -46,13 +48,25 @@ class MarkerMotion : protected Pointers, public rbc::Motion {
   void velocity(const rbc::Numbers &x, double fraction, rbc::Numbers &v) override;
   void sum(double *values, int count) const override;
 
-  /// Atoms must not cross more fluid cells in a step; they must stay between plates.
+  bool is_viscous() const { return !viscous_.empty(); }
+
+  /// Atoms must not cross more fluid cells in a step: checked when they take velocities. They must stay between plates:
+  /// reported only.
   double courant = 1;
-  void check_velocities() const;
-  void check_positions() const;
+  void check_velocities();
+  void check_positions();
+
+  /// Time in which the fastest atom crosses half of what it may.
+  double longest_step() const;
   double *rows(double **array) const { return members_.empty() ? nullptr : array[0]; }
-  [[noreturn]] void stop_outside(int i) const;
-  [[noreturn]] void stop(int i, const std::string &what) const;
+
+  /// What is wrong with an atom: ends the run when all tasks check `stop`, which they do before the next solve.
+  void report_outside(int i);
+  void report(int i, const std::string &what);
+  std::shared_ptr<CollectiveStop> stop;
+
+  /// Velocities are those of positions that the atoms do not take, of any size and without viscous forces.
+  bool probing = false;
 
   /// Error allowed in the velocities where forces depend on them, relative to the fastest marker.
   double tolerance = 1e-4;
@@ -76,6 +90,7 @@ class MarkerMotion : protected Pointers, public rbc::Motion {
   rbc::Numbers applied_, response_;    // of all atoms here
 
   void velocities_of_forces(Stage stage);
+  void report_too_fast();
   void resistance(const rbc::Numbers &p, rbc::Numbers &v);
 };
 

@@ -23,20 +23,23 @@ class Swelling {
   double middle() const { return 0.5 * (state.before + state.now); }
   double change() const { return state.now - state.before; }
 
-  /// Collective: evaluates a variable, once a step. What it jumped by between runs is no change within a step.
+  /// Collective: evaluates a variable, once a step and timestep. What it jumped by between runs is no change within a
+  /// step.
   void update(LAMMPS *lmp, bool new_run)
   {
     const auto step = static_cast<double>(lmp->update->ntimestep);
-    if (!varies() || (step == state.step && !new_run)) return;
+    const bool same = step == state.step;
+    if (!varies() || (same && lmp->update->dt == dt && !new_run)) return;
     lmp->modify->clearstep_compute();
     const double value = factor.value(lmp);
     lmp->modify->addstep_compute(lmp->update->ntimestep + 1);
     if (step == state.step + 1)
       state.before = state.now;
-    else if (step != state.step || value != state.now)
+    else if (!same || (new_run && value != state.now))
       state.before = value;
     state.now = value;
     state.step = step;
+    dt = lmp->update->dt;
   }
 
   /// What a restart needs, all of it doubles.
@@ -46,6 +49,7 @@ class Swelling {
 
  private:
   NumberOrVariable factor;
+  double dt = 0;    // at the last evaluation
 };
 
 }    // namespace LAMMPS_NS

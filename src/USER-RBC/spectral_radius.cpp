@@ -12,12 +12,12 @@ double SpectralRadius::estimate(Motion &motion, const Numbers &x, const Numbers 
   changed_ = velocity;
   double radius = 0;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
-    const double scale = size / std::sqrt(dot(motion, mode, mode));
+    const double scale = size / root_mean_square(motion, mode);
     for (std::size_t i = 0; i < n; ++i) displaced_[i] = x[i] + scale * mode[i];
     motion.velocity(displaced_, 0, changed_);
     for (std::size_t i = 0; i < n; ++i) mode[i] = changed_[i] - velocity[i];
     const double before = radius;
-    radius = std::sqrt(dot(motion, mode, mode)) / size;
+    radius = root_mean_square(motion, mode) / size;
     if (!(radius > 0) || std::abs(radius - before) <= tolerance * radius) break;
   }
   return radius;

@@ -8,10 +8,10 @@ namespace rbc {
 /// Verwer, J. Comput. Appl. Math. 88 (1998) 315).
 class SpectralRadius {
  public:
-  double tolerance = 0.02;    ///< change of the estimate at which iterations end
+  double tolerance = 0.01;    ///< change of the estimate at which iterations end
   int max_iterations = 100;
 
-  /// `size` is how far points are displaced (root of the sum of squares). `mode` holds a first guess of the fastest
+  /// `size` is how far points are displaced (root mean square). `mode` holds a first guess of the fastest
   /// mode, not zero, and becomes it; `velocity` is that at x. One evaluation per iteration.
   double estimate(Motion &motion, const Numbers &x, const Numbers &velocity, double size,
                   Numbers &mode);

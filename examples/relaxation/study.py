@@ -1,0 +1,92 @@
+#!/usr/bin/python3
+"""Relaxation of a stretched red cell for several viscosities of its membrane, beside the cells of Hochmuth et al. (1979).
+
+Runs in.relaxation (about 5 minutes each on one core), writes relaxation.csv, draws relaxation.png and prints
+the time constants. With --draw only the picture and the numbers, from relaxation.csv.
+"""
+
+import argparse
+import csv
+import subprocess
+import tempfile
+from pathlib import Path
+
+import matplotlib
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+REFERENCE = HERE.parent / "reference" / "01g_relaxation_hochmuth1979.csv"
+VISCOSITIES = (300, 600, 900)
+
+
+def curve(t, parameters):
+    """L/W = m (1 + b e) / (1 - b e) with e = exp(-t/tc) (Hochmuth, Worthy and Evans, Biophys. J. 26 (1979) 101)."""
+    tc, end, first = parameters
+    decay = (first - end) / (first + end) * np.exp(-t / tc)
+    return end * (1 + decay) / (1 - decay)
+
+
+def fit(t, ratio):
+    """Time constant, L/W at the end and at the start, by least squares (Gauss-Newton)."""
+    p = np.array([0.12, ratio[-1], ratio[0]])
+    for _ in range(100):
+        residual = ratio - curve(t, p)
+        slopes = np.stack([(curve(t, p + h) - curve(t, p - h)) / 2e-6 for h in 1e-6 * np.eye(3)], axis=1)
+        step = np.linalg.lstsq(slopes, residual, rcond=None)[0]
+        p += np.clip(step, -0.2 * p, 0.2 * p)
+    return p
+
+
+def measure(lmp, templates, viscosity):
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([lmp, "-in", HERE / "in.relaxation", "-log", "none", "-screen", "none", "-var", "eta_m",
+                        str(viscosity), "-var", "templates", templates], cwd=folder, check=True)
+        return [(f"eta_m {viscosity}", *row) for row in np.loadtxt(Path(folder) / "relaxation.dat")[:, :2]]
+
+
+def read(path):
+    series = {}
+    with open(path, encoding="utf-8") as stream:
+        for row in csv.reader(line for line in stream if line[0] not in "#c"):
+            series.setdefault(row[0], []).append((float(row[1]), float(row[2])))
+    return {name: np.array(points).T for name, points in series.items()}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--lmp", default=HERE.parents[1] / "build" / "lmp_rbc")
+    parser.add_argument("--draw", action="store_true", help="do not run")
+    options = parser.parse_args()
+    table = HERE / "relaxation.csv"
+    if not options.draw:
+        rows = [row for v in VISCOSITIES for row in measure(options.lmp, HERE.parents[1] / "potentials", v)]
+        with open(table, "w", encoding="utf-8") as stream:
+            stream.write("case,time_s,L_over_W\n")
+            stream.writelines(f"{name},{t:.6g},{ratio:.6g}\n" for name, t, ratio in rows)
+
+    figure, axis = plt.subplots(figsize=(7, 4.8))
+    times = []
+    for n, (name, (t, ratio)) in enumerate(read(REFERENCE).items()):
+        p = fit(t, ratio)
+        times.append(p[0])
+        axis.plot(t, ratio, "os^v"[n], ms=4, mfc="none", color=f"C{n}", label=f"Hochmuth 1979, cell {name}: {p[0]:.3f} s")
+        print(f"data, cell {name}: tc = {p[0]:.4f} s, L/W from {p[2]:.2f} to {p[1]:.2f}")
+    print(f"data: {min(times):.4f} to {max(times):.4f} s")
+    for n, (name, (t, ratio)) in enumerate(read(table).items()):
+        p = fit(t, ratio)
+        axis.plot(t, ratio, "-k", lw=1 + 0.6 * n, alpha=0.4 + 0.2 * n, label=f"{name.replace('eta_m', 'η_m =')} pg/µs: {p[0]:.3f} s")
+        inside = "inside" if min(times) <= p[0] <= max(times) else "outside"
+        print(f"{name}: tc = {p[0]:.4f} s, L/W from {p[2]:.2f} to {p[1]:.2f}, {inside} the data")
+    axis.set_xlabel("time / s")
+    axis.set_ylabel("length over width")
+    axis.set_xlim(0, 0.45)
+    axis.legend(fontsize=8)
+    axis.grid(alpha=0.3)
+    figure.tight_layout()
+    figure.savefig(HERE / "relaxation.png", dpi=110)
+
+
+if __name__ == "__main__":
+    main()
