@@ -41,8 +41,8 @@ def fit(t, ratio):
 
 def measure(lmp, templates, viscosity):
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([lmp, "-in", HERE / "in.relaxation", "-log", "none", "-screen", "none", "-var", "eta_m",
-                        str(viscosity), "-var", "templates", templates], cwd=folder, check=True)
+        subprocess.run([lmp, "-in", HERE / "in.relaxation", "-log", "none", "-screen", "none", "-var",
+                        "surface_viscosity", str(viscosity), "-var", "templates", templates], cwd=folder, check=True)
         return [(f"eta_m {viscosity}", *row) for row in np.loadtxt(Path(folder) / "relaxation.dat")[:, :2]]
 
 

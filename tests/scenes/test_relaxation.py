@@ -1,0 +1,40 @@
+"""A stretched red cell lets go, on a coarse mesh: its time constant is that of its membrane, viscosity over modulus."""
+
+import unittest
+
+import numpy as np
+
+from scene_case import run_example, study_of
+
+STUDY = study_of("relaxation")
+SHEAR_MODULUS = 5.654e-3    # of healthy.material, pg/us^2
+
+
+def time_constant(viscosity):
+    folder = run_example("relaxation", shape="rbc_162", patch=3.3, dx=1, width=12, surface_viscosity=viscosity, timestep=2000,
+                         duration=600 * viscosity).folder
+    t, ratio = np.loadtxt(folder / "relaxation.dat")[:, :2].T
+    return STUDY.fit(t, ratio)[0]
+
+
+class Relaxation(unittest.TestCase):
+    def test_time_constant(self):
+        # eta_m / G_s for a strip that shortens (Hochmuth, Worthy and Evans 1979), here for a whole cell, to which the
+        # fluid adds the same small time in both cases
+        one, two = time_constant(600), time_constant(1200)
+        membrane, fluid = two - one, 2 * one - two
+        expected = 600e-6 / SHEAR_MODULUS
+        print(f"\ntime constants {one:.4f} and {two:.4f} s: membrane {membrane / expected:.3f} of eta_m / G_s, "
+              f"fluid {fluid:.4f} s")
+        self.assertLess(abs(membrane / expected - 1), 0.15)
+        self.assertTrue(0 <= fluid < 0.02)
+
+
+class Fit(unittest.TestCase):
+    def test_finds_what_made_the_curve(self):
+        t = np.linspace(0, 0.4, 60)
+        np.testing.assert_allclose(STUDY.fit(t, STUDY.curve(t, (0.13, 1.1, 2.1))), (0.13, 1.1, 2.1), rtol=1e-6)
+
+
+if __name__ == "__main__":
+    unittest.main()
