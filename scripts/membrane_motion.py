@@ -6,6 +6,10 @@ membrane with the rotation that best maps the vertices from one frame to the nex
 as one: both rates agree. A tank-treading cell keeps its shape's angle while the membrane runs around it.
 Rates are given over the shear rate; a rigid sphere turns at -1/2.
 
+The rotation that maps best is not how often the membrane goes around: on an ellipse of axes a and b it is
+2 a b / (a^2 + b^2) of that. The frequency that experiments count, the revolutions of the vertices around the
+centre, is given beside it.
+
     membrane_motion.py vertices.dump --timestep DT --shear-rate G [-o motion.dat] [--from STRAIN]
 """
 
@@ -41,6 +45,17 @@ def angles(positions):
     return shape, np.concatenate([[0.0], np.cumsum(turn)])
 
 
+def revolutions(positions, clearance=0.4):
+    """How often each vertex has gone around the centre in the x-z plane since the first frame, [frame, vertex].
+
+    Only vertices that stay further than `clearance` from the axis through the centre along y.
+    """
+    plane = positions[:, :, [0, 2]] - positions[:, :, [0, 2]].mean(axis=1, keepdims=True)
+    plane = plane[:, np.linalg.norm(plane, axis=2).min(axis=0) > clearance]
+    turns = np.unwrap(np.arctan2(plane[..., 1], plane[..., 0]), axis=0) / (2 * np.pi)
+    return turns - turns[0]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("dump")
@@ -61,10 +76,14 @@ def main():
     span = strain[late][-1] - strain[late][0]
     shape_rate = (shape[late][-1] - shape[late][0]) / span
     membrane_rate = (membrane[late][-1] - membrane[late][0]) / span
+    turns = revolutions(positions[late])
+    frequencies = turns[-1] / span
     print(f"strain {strain[late][0]:.3g} to {strain[-1]:.3g}: shape turns at {shape_rate:+.4f}, "
           f"membrane at {membrane_rate:+.4f} of the shear rate; "
           f"tank-treading {membrane_rate - shape_rate:+.4f}; "
           f"angle of the shape {np.degrees(shape[late]).min():.1f} to {np.degrees(shape[late]).max():.1f} degrees")
+    print(f"vertices go around {frequencies.mean():+.4f} times per strain, standard deviation {frequencies.std():.4f} "
+          f"over {frequencies.size} vertices")
 
 
 if __name__ == "__main__":
