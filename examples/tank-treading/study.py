@@ -19,19 +19,11 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
-from membrane_motion import angles, read_dump  # noqa: E402
+from membrane_motion import angles, read_dump, revolutions  # noqa: E402
 
 REFERENCE = HERE.parent / "reference" / "03b_ttf_fischer_28p9mPas_binned.csv"
 VISCOSITIES = 600, 300
 FROM = 20    # strain from which frequencies and angles count
-
-
-def revolutions(positions):
-    """How often each vertex has gone around the centre of the cell in the plane of shear since the first frame, [frame,
-    vertex], for vertices that never come close to the axis of vorticity."""
-    p = positions - positions.mean(axis=1, keepdims=True)
-    turn = np.unwrap(np.arctan2(p[..., 2], p[..., 0]), axis=0) / (2 * np.pi)
-    return (turn - turn[0])[:, np.hypot(p[..., 0], p[..., 2]).min(axis=0) > 0.4]
 
 
 def motion(folder, step, start=FROM):
