@@ -123,10 +123,11 @@ class Limits(unittest.TestCase):
             self.assertAlmostEqual(stiffer / softer, 10, delta=15 * factor)    # what is next is of second order
 
     def test_stiff_cells_move_as_with_short_explicit_steps(self):
+        # long steps do not resolve how the stress builds up at the start; what they miss decays over some tens of steps
         for factor, dt, short in ((1e2, 100.0, 10.0), (1e4, 20.0, 0.1)):
             (start, end, _), (_, explicit, _) = in_parallel(
                 lambda *case: shear(factor=factor, ib=case[0], dt=case[1], steps=case[2], every="thermo 1000"),
-                [(AUTO, dt, 20), (SHEAR["ib"], short, round(20 * dt / short))])
+                [(AUTO, dt, 60), (SHEAR["ib"], short, round(60 * dt / short))])
             off = rms(end - explicit) / rms(explicit - start)
             print(f"\nmoduli times {factor:g}: rkc in {round(dt / short)} times as long steps differs by {off:.2g} of the motion")
             self.assertLess(off, 1e-3)
