@@ -19,7 +19,7 @@ class Stiff(unittest.TestCase):
         spheroid = os.path.relpath("spheroid", POTENTIALS)
         shapes = [(spheroid, 0.75, 1), ("rbc_162", 1.0, 2)]
         cls.found = in_parallel(lambda shape, dx, ranks: STUDY.measure(
-            run_example("stiff", ranks, shape=shape, dx=dx, strain=13, surfaces=1).folder), shapes)
+            run_example("stiff", ranks, shape=shape, dx=dx, strain=13, timestep=500, surfaces=1).folder), shapes)
 
     def test_jeffery_orbit(self):
         # Any body of revolution turns as a spheroid of some aspect ratio (Bretherton 1962). That of the disc is larger
