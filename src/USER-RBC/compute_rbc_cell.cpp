@@ -5,7 +5,6 @@
 #include "error.h"
 #include "fix_rbc_membrane.h"
 #include "memory.h"
-#include "modify.h"
 #include "update.h"
 
 #include <algorithm>
@@ -31,7 +30,8 @@ enum {
 
 /* ---------------------------------------------------------------------- */
 
-ComputeRBCCell::ComputeRBCCell(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg)
+ComputeRBCCell::ComputeRBCCell(LAMMPS *lmp, int narg, char **arg) :
+    Compute(lmp, narg, arg), cells(lmp, fmt::format("Compute rbc/cell {}", id))
 {
   if (narg > 3) error->all(FLERR, 3, "Unknown compute rbc/cell argument {}: it takes none", arg[3]);
   array_flag = 1;
@@ -47,44 +47,13 @@ ComputeRBCCell::~ComputeRBCCell()
 }
 
 /* ----------------------------------------------------------------------
-   a row for each cell of the fixes rbc/membrane whose atoms are all in the group
+   a row for each cell
 ------------------------------------------------------------------------- */
 
 void ComputeRBCCell::init()
 {
-  membranes.clear();
-  for (Fix *fix : modify->get_fix_by_style("^rbc/membrane$"))
-    membranes.push_back(dynamic_cast<FixRBCMembrane *>(fix));
-  if (membranes.empty())
-    error->all(FLERR, "Compute rbc/cell {} needs a fix rbc/membrane: it knows the cells", id);
-
-  molecules.clear();
-  for (FixRBCMembrane *fix : membranes) {
-    fix->local_cells().find();    // the fix itself may be initialised after this compute
-    const auto &ids = fix->local_cells().molecules();
-    molecules.insert(molecules.end(), ids.begin(), ids.end());
-  }
-  std::sort(molecules.begin(), molecules.end());
-  if (std::adjacent_find(molecules.begin(), molecules.end()) != molecules.end())
-    error->all(FLERR,
-               "Compute rbc/cell {}: molecule ID {} belongs to more than one fix rbc/membrane", id,
-               *std::adjacent_find(molecules.begin(), molecules.end()));
-
-  if (igroup != 0) {
-    std::vector<int> outside(molecules.size());
-    for (int i = 0; i < atom->nlocal; ++i) {
-      const int row = row_of(atom->molecule[i]);
-      if (row >= 0 && !(atom->mask[i] & groupbit)) outside[row] = 1;
-    }
-    MPI_Allreduce(MPI_IN_PLACE, outside.data(), static_cast<int>(outside.size()), MPI_INT, MPI_MAX,
-                  world);
-    std::vector<tagint> inside;
-    for (std::size_t n = 0; n < molecules.size(); ++n)
-      if (!outside[n]) inside.push_back(molecules[n]);
-    molecules = std::move(inside);
-  }
-
-  const int rows = static_cast<int>(molecules.size());
+  cells.find(groupbit);
+  const int rows = cells.size();
   if (rows != size_array_rows || !array) {
     size_array_rows = rows;
     memory->destroy(array);
@@ -92,26 +61,18 @@ void ComputeRBCCell::init()
   }
 }
 
-int ComputeRBCCell::row_of(tagint molecule) const
-{
-  const auto found = std::lower_bound(molecules.begin(), molecules.end(), molecule);
-  return found != molecules.end() && *found == molecule
-             ? static_cast<int>(found - molecules.begin())
-             : -1;
-}
-
 /* ---------------------------------------------------------------------- */
 
 void ComputeRBCCell::compute_array()
 {
   invoked_array = update->ntimestep;
-  sums.assign(molecules.size() * NSUMS, 0.0);
-  for (FixRBCMembrane *fix : membranes) add_sums(fix);
+  sums.assign(std::size_t(cells.size()) * NSUMS, 0.0);
+  for (FixRBCMembrane *fix : cells.membranes()) add_sums(fix);
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
                 world);
 
-  for (std::size_t n = 0; n < molecules.size(); ++n) {
-    const double *s = &sums[n * NSUMS];
+  for (int n = 0; n < cells.size(); ++n) {
+    const double *s = &sums[std::size_t(n) * NSUMS];
     rbc::VolumeMoments moments;
     moments.area = s[AREA];
     moments.volume = s[VOLUME];
@@ -123,7 +84,7 @@ void ComputeRBCCell::compute_array()
     const Vec3 centre = moments.centre() + Vec3(s + ORIGIN) / s[COUNT];
 
     double *row = array[n];
-    row[0] = static_cast<double>(molecules[n]);
+    row[0] = static_cast<double>(cells.molecules()[n]);
     row[4] = moments.area;
     row[5] = moments.volume;
     row[6] = ellipsoid.deformation();
@@ -141,13 +102,13 @@ void ComputeRBCCell::compute_array()
 
 void ComputeRBCCell::add_sums(FixRBCMembrane *fix)
 {
-  LocalCells &cells = fix->local_cells();
+  LocalCells &local = fix->local_cells();
   const rbc::SurfaceTemplate &shape = fix->shape();
   std::vector<Vec3> x(shape.size());
-  for (const LocalCells::Cell &cell : cells.cells()) {
-    const int row = row_of(cells.molecules()[cell.index]);
+  for (const LocalCells::Cell &cell : local.cells()) {
+    const int row = cells.index_of(local.molecules()[cell.index]);
     if (row < 0) continue;
-    cells.gather(cell, x);
+    local.gather(cell, x);
     rbc::VolumeMoments moments;
     for (int t : cell.elements->triangles) {
       const auto &[i, j, k] = shape.triangles[t];
@@ -178,5 +139,5 @@ void ComputeRBCCell::add_sums(FixRBCMembrane *fix)
 
 double ComputeRBCCell::memory_usage()
 {
-  return static_cast<double>(molecules.size()) * (NSUMS + NCOLS) * sizeof(double);
+  return static_cast<double>(cells.size()) * (NSUMS + NCOLS) * sizeof(double);
 }

@@ -8,6 +8,7 @@ ComputeStyle(rbc/cell,ComputeRBCCell);
 #define LMP_COMPUTE_RBC_CELL_H
 
 #include "compute.h"
+#include "rbc_group_cells.h"
 
 #include <vector>
 
@@ -23,12 +24,10 @@ class ComputeRBCCell : public Compute {
   double memory_usage() override;
 
  private:
-  std::vector<class FixRBCMembrane *> membranes;
-  std::vector<tagint> molecules;    // of each row
+  GroupCells cells;    // one for each row
   std::vector<double> sums;
 
   void add_sums(class FixRBCMembrane *);
-  int row_of(tagint) const;
 };
 
 }    // namespace LAMMPS_NS
