@@ -36,6 +36,8 @@ class LocalCells : protected Pointers {
   void bind(bool bending);
 
   const std::vector<tagint> &molecules() const { return molecule_ids; }
+  /// Lowest atom ID of each cell.
+  const std::vector<tagint> &first_atoms() const { return first_ids; }
   const std::vector<Cell> &cells() const { return local; }
 
   /// Positions of the cell's vertices from its origin.

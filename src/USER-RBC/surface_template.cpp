@@ -68,7 +68,8 @@ bool connected(const std::vector<std::vector<int>> &neighbours)
 
 SurfaceTemplate::SurfaceTemplate(std::vector<Vec3> vertices_in, std::vector<Corners> triangles_in) :
     vertices(std::move(vertices_in)), triangles(std::move(triangles_in)),
-    curvature(vertices.size()), neighbours(vertices.size()), fans(vertices.size())
+    vertex_area(vertices.size()), curvature(vertices.size()), neighbours(vertices.size()),
+    fans(vertices.size())
 {
   require(triangles.size() >= 4, "a closed surface needs at least 4 triangles");
   const auto left = directed_edges(size(), triangles);
@@ -102,7 +103,6 @@ SurfaceTemplate::SurfaceTemplate(std::vector<Vec3> vertices_in, std::vector<Corn
   }
 
   std::vector<Vec3> normals(triangles.size());
-  std::vector<double> vertex_area(vertices.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto &[i, j, k] = triangles[t];
     const Vec3 e1 = vertices[j] - vertices[i], e2 = vertices[k] - vertices[i];

@@ -49,6 +49,7 @@ class SurfaceTemplate {
   std::vector<ReferenceTriangle> reference;
   std::vector<ReferenceHinge> reference_hinges;
   std::array<std::vector<double>, 3> corner_share;    ///< of each triangle's area
+  std::vector<double> vertex_area;             ///< each vertex's share of the area of the shape
   std::vector<double> curvature;               ///< mean curvature of the shape at each vertex
   std::vector<std::vector<int>> neighbours;    ///< vertices that share an edge
   std::vector<std::vector<int>> fans;          ///< triangles around each vertex

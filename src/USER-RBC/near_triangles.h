@@ -1,0 +1,79 @@
+#pragma once
+
+#include "plain_vector.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace rbc {
+
+/// Finds for points the closest point on each closed triangulated surface near them. Surfaces have numbers; a point
+/// belongs to one and does not see it. Triangles may be a part of a surface, as long as those that share a corner with one
+/// in reach are there. Positions are three numbers for each point, of points and corners in one array.
+class NearTriangles {
+ public:
+  using Surface = std::int64_t;
+
+  struct Triangle {
+    std::array<int, 3> corner;    ///< right-handed outward
+    Surface surface;
+  };
+
+  /// A point near a surface.
+  struct Contact {
+    int point;
+    std::array<int, 3> corner;       ///< of the triangle closest to it
+    std::array<double, 3> weight;    ///< of the corners at the closest point
+    PlainVector normal;    ///< there, of unit length, outward, along the line to the point
+    double gap;            ///< distance, negative inside
+  };
+
+  /// Takes a surface apart anew: `surfaces[n]` is that of point n < points, triangles have their corners among the
+  /// `corners` first positions. Finds what comes within `range` of each other before a point has moved by slack / 2.
+  void build(int points, const Surface *surfaces, int corners, const double *x,
+             const std::vector<Triangle> &triangles, double range, double slack);
+
+  /// Largest distance that a corner moved since build().
+  double largest_displacement(const double *x) const;
+
+  /// All points nearer than range to a surface: one contact for each such surface. `moved` is the largest
+  /// displacement since build().
+  const std::vector<Contact> &contacts(const double *x, double range, double moved);
+
+  std::size_t bytes() const;
+
+ private:
+  /// Triangles of one surface near one point.
+  struct Group {
+    int point, begin, end;
+  };
+  /// A triangle and its distance when built.
+  struct Candidate {
+    Surface surface;
+    double distance;
+    int triangle;
+  };
+  /// Bounding sphere.
+  struct Sphere {
+    PlainVector centre;
+    double radius;
+    int triangle;
+  };
+
+  std::vector<Triangle> triangles_;
+  std::vector<int> fan_begin_, fans_;    // triangles around each corner
+  std::vector<double> built_;            // positions
+  std::vector<Sphere> spheres_, sorted_;
+  std::vector<int> bin_begin_, bin_of_;
+  std::vector<Group> groups_;
+  std::vector<Candidate> candidates_;
+  std::vector<Contact> contacts_;
+
+  void build_fans(int corners);
+  void bound(const double *x);
+  PlainVector outward(const double *x, const std::array<int, 3> &corner,
+                      const std::array<double, 3> &weight, PlainVector face) const;
+};
+
+}    // namespace rbc

@@ -1,0 +1,177 @@
+#include "rbc_near_surfaces.h"
+
+#include "atom.h"
+#include "domain.h"
+#include "fix_rbc_membrane.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+
+// edges of triangles may be stretched by this factor
+
+static constexpr double STRETCH = 1.5;
+
+/* ---------------------------------------------------------------------- */
+
+NearSurfaces::NearSurfaces(LAMMPS *lmp, std::string style) :
+    Pointers(lmp), style(std::move(style)), stop(lmp)
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+void NearSurfaces::init()
+{
+  shapes.clear();
+  cells.clear();
+  for (Fix *fix : modify->get_fix_by_style("^rbc/membrane$")) {
+    auto *membrane = dynamic_cast<FixRBCMembrane *>(fix);
+    membrane->local_cells().find();    // the fix itself is initialised later
+    const rbc::SurfaceTemplate &surface = membrane->shape();
+    std::vector<std::vector<int>> led(surface.size());
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+      led[surface.triangles[t][0]].push_back(static_cast<int>(t));
+    shapes.push_back({&surface, std::move(led)});
+
+    const auto &molecules = membrane->local_cells().molecules();
+    const auto &first = membrane->local_cells().first_atoms();
+    if (molecules.empty()) continue;
+    cells.resize(std::max<std::size_t>(cells.size(), molecules.back() + 1), {-1, 0});
+    for (std::size_t n = 0; n < molecules.size(); ++n)
+      cells[molecules[n]] = {static_cast<int>(shapes.size()) - 1, first[n]};
+  }
+  if (shapes.empty())
+    error->all(FLERR, "{} needs a fix rbc/membrane: it knows the cells and their triangles", style);
+}
+
+double NearSurfaces::longest_edge() const
+{
+  double longest = 0;
+  for (const Shape &shape : shapes) longest = std::max(longest, shape.surface->longest_edge);
+  return STRETCH * longest;
+}
+
+/* ---------------------------------------------------------------------- */
+
+const NearSurfaces::Cell *NearSurfaces::cell_of(int i) const
+{
+  const tagint molecule = atom->molecule[i];
+  if (molecule < 0 || molecule >= static_cast<tagint>(cells.size()) || cells[molecule].shape < 0)
+    return nullptr;
+  return &cells[molecule];
+}
+
+const NearSurfaces::Shape *NearSurfaces::shape_of(int i) const
+{
+  const Cell *const cell = cell_of(i);
+  return cell ? &shapes[cell->shape] : nullptr;
+}
+
+double NearSurfaces::area(int i) const
+{
+  const Cell *const cell = cell_of(i);
+  return shapes[cell->shape].surface->vertex_area[atom->tag[i] - cell->first];
+}
+
+/* ----------------------------------------------------------------------
+   ghosts are there up to the ghost cutoff; from an owned vertex it must reach all corners of triangles near it
+------------------------------------------------------------------------- */
+
+double NearSurfaces::longest_known_edge(double range, double slack) const
+{
+  const double ghosts = comm->get_comm_cutoff();
+  double longest = ghosts - range - slack;
+  if (longest < longest_edge() * (1 - 1e-9))
+    error->all(FLERR,
+               "{}: ghost cutoff {:.6g} is too short for surfaces {:.6g} apart; use comm_modify "
+               "cutoff with at least {:.6g}",
+               style, ghosts, range, range + slack + longest_edge());
+  const int periodic[3] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
+  for (int d = 0; d < 3; ++d)
+    if (periodic[d]) longest = std::min(longest, domain->prd[d] / 2);
+  return longest;
+}
+
+void NearSurfaces::build(double range, double slack)
+{
+  built_slack = slack;
+  collect_triangles(longest_known_edge(range, slack));
+  stop.check();
+  owners.resize(atom->nlocal);
+  int points = 0;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    owners[i] = atom->molecule[i];
+    if (cell_of(i)) points = i + 1;
+  }
+  finder.build(points, owners.data(), atom->nlocal + atom->nghost, atom->x[0], triangles, range,
+               slack);
+}
+
+/* ----------------------------------------------------------------------
+   every image of a triangle of which this rank knows the corners, once: with the image of its first corner
+------------------------------------------------------------------------- */
+
+void NearSurfaces::collect_triangles(double longest)
+{
+  triangles.clear();
+  const int all = atom->nlocal + atom->nghost;
+  for (int i = 0; i < all; ++i) {
+    const Cell *const cell = cell_of(i);
+    if (!cell) continue;
+    const Shape &shape = shapes[cell->shape];
+    for (int t : shape.led[atom->tag[i] - cell->first]) {
+      const auto &corners = shape.surface->triangles[t];
+      const int j = image_near(i, cell->first + corners[1], longest);
+      const int k = image_near(i, cell->first + corners[2], longest);
+      if (j >= 0 && k >= 0)
+        triangles.push_back({{i, j, k}, atom->molecule[i]});
+      else if (i < atom->nlocal)
+        stop.report(fmt::format(
+            "{}: a triangle of the cell with molecule ID {} near ({:.6g}, {:.6g}, {:.6g}) has an "
+            "edge longer than {:.6g} at step {}; it is stretched too far, or raise the ghost "
+            "cutoff {:.6g} with comm_modify cutoff",
+            style, atom->molecule[i], atom->x[i][0], atom->x[i][1], atom->x[i][2], longest,
+            update->ntimestep, comm->get_comm_cutoff()));
+    }
+  }
+}
+
+int NearSurfaces::image_near(int i, tagint id, double longest) const
+{
+  const int j = domain->closest_image(i, atom->map(id));
+  if (j < 0) return -1;
+  double square = 0;
+  for (int d = 0; d < 3; ++d) {
+    const double apart = atom->x[j][d] - atom->x[i][d];
+    square += apart * apart;
+  }
+  return square <= longest * longest ? j : -1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+const std::vector<NearSurfaces::Contact> &NearSurfaces::contacts(double range)
+{
+  const double moved = finder.largest_displacement(atom->x[0]);
+  if (!(2 * moved <= built_slack))
+    stop.report(fmt::format(
+        "{}: atoms moved by {:.4g} since step {}, when the neighbors were found, more than half of "
+        "the neighbor skin {:.6g}, at step {}: raise the skin with the neighbor command, or lower "
+        "the timestep",
+        style, moved, neighbor->lastcall, built_slack, update->ntimestep));
+  stop.check();
+  return finder.contacts(atom->x[0], range, moved);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double NearSurfaces::bytes() const
+{
+  return static_cast<double>(finder.bytes()) +
+         triangles.capacity() * sizeof(rbc::NearTriangles::Triangle) +
+         owners.capacity() * sizeof(rbc::NearTriangles::Surface) + cells.capacity() * sizeof(Cell);
+}

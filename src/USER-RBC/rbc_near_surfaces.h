@@ -1,0 +1,73 @@
+#ifndef LMP_RBC_NEAR_SURFACES_H
+#define LMP_RBC_NEAR_SURFACES_H
+
+#include "lmptype.h"
+#include "near_triangles.h"
+#include "pointers.h"
+#include "rbc_collective_stop.h"
+#include "surface_template.h"
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// The vertices that this rank owns and the surfaces of other cells near them, of all fixes rbc/membrane.
+class NearSurfaces : protected Pointers {
+ public:
+  /// A vertex and the closest point of another cell's surface. Points and corners are local indices of atoms; corners
+  /// may be ghosts.
+  using Contact = rbc::NearTriangles::Contact;
+
+  NearSurfaces(LAMMPS *lmp, std::string style);
+
+  /// Collective, at the start of a run: finds the cells.
+  void init();
+
+  /// Triangles' edges may be as long: half as long again as in the cells at rest.
+  double longest_edge() const;
+
+  /// Collective, with ghosts at their places: finds what comes nearer than `range` before atoms moved by slack / 2. The
+  /// ghost cutoff must be the sum of range, slack and longest_edge() at least.
+  void build(double range, double slack);
+
+  /// Collective, for positions that ghosts have too: one contact for each owned vertex and other cell nearer to it than
+  /// `range`, at most that of build().
+  const std::vector<Contact> &contacts(double range);
+
+  bool is_vertex(int i) const { return shape_of(i) != nullptr; }
+
+  /// An atom's share of the area of its cell at rest.
+  double area(int i) const;
+
+  double bytes() const;
+
+ private:
+  struct Cell {
+    int shape;
+    tagint first;    ///< atom
+  };
+  struct Shape {
+    const rbc::SurfaceTemplate *surface;
+    std::vector<std::vector<int>> led;    ///< triangles of which a vertex is the first corner
+  };
+
+  std::string style;
+  CollectiveStop stop;
+  std::vector<Shape> shapes;
+  std::vector<Cell> cells;    ///< by molecule ID
+  rbc::NearTriangles finder;
+  std::vector<rbc::NearTriangles::Triangle> triangles;
+  std::vector<rbc::NearTriangles::Surface> owners;
+  double built_slack = 0;
+
+  const Cell *cell_of(int i) const;
+  const Shape *shape_of(int i) const;
+  double longest_known_edge(double range, double slack) const;
+  void collect_triangles(double longest);
+  int image_near(int i, tagint id, double longest) const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
