@@ -11,6 +11,10 @@ namespace rbc {
 
 namespace {
 
+// distance over an edge's length below which the line to a point has no direction
+
+constexpr double TOUCHING = 1e-10;
+
 PlainVector at(const double *x, int n)
 {
   return {x[3 * std::size_t(n)], x[3 * std::size_t(n) + 1], x[3 * std::size_t(n) + 2]};
@@ -192,8 +196,9 @@ const std::vector<NearTriangles::Contact> &NearTriangles::contacts(const double 
     const PlainVector out = outward(x, nearest->corner, weight, cross(b - a, c - a));
     const double distance = std::sqrt(nearest2);
     const bool inside = dot(apart, out) < 0;
+    const bool has_direction = nearest2 > square(TOUCHING) * dot(b - a, b - a);
     const PlainVector normal =
-        distance > 0 ? (inside ? -1 / distance : 1 / distance) * apart : (1 / norm(out)) * out;
+        has_direction ? (inside ? -1 / distance : 1 / distance) * apart : (1 / norm(out)) * out;
     contacts_.push_back(
         {group.point, nearest->corner, weight, normal, inside ? -distance : distance});
   }
