@@ -127,7 +127,8 @@ TEST(Finder, PointOnTheSurface)
 TEST(Finder, NothingNear)
 {
   NearTriangles finder;
-  finder.build(0, nullptr, 0, nullptr, {}, range, slack);
+  std::vector<NearTriangles::Triangle> none;
+  finder.build(0, nullptr, 0, nullptr, none, range, slack);
   EXPECT_EQ(finder.largest_displacement(nullptr), 0);
   EXPECT_TRUE(finder.contacts(nullptr, range, 0).empty());
 }
