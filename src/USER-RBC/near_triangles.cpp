@@ -219,10 +219,24 @@ void NearTriangles::build_fans(int corners)
 double NearTriangles::largest_displacement(const double *x) const
 {
   double largest2 = 0;
-  for (std::size_t n = 0; n < built_.size(); n += 3)
-    largest2 = std::max(largest2, square(x[n] - built_[n]) + square(x[n + 1] - built_[n + 1]) +
-                                      square(x[n + 2] - built_[n + 2]));
+  for (std::size_t n = 0; n < built_.size(); n += 3) {
+    const PlainVector moved = at(x, n / 3) - at(built_.data(), n / 3);
+    largest2 = std::max(largest2, dot(moved, moved));
+  }
   return std::sqrt(largest2);
+}
+
+int NearTriangles::furthest_moved(const double *x) const
+{
+  int furthest = -1;
+  double largest2 = -1;
+  for (int n = 0; n < static_cast<int>(built_.size() / 3); ++n) {
+    const PlainVector moved = at(x, n) - at(built_.data(), n);
+    if (dot(moved, moved) <= largest2) continue;
+    largest2 = dot(moved, moved);
+    furthest = n;
+  }
+  return furthest;
 }
 
 /* ----------------------------------------------------------------------

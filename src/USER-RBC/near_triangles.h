@@ -37,6 +37,9 @@ class NearTriangles {
   /// Largest distance that a corner moved since build().
   double largest_displacement(const double *x) const;
 
+  /// The corner that moved furthest, -1 if there is none.
+  int furthest_moved(const double *x) const;
+
   /// All points nearer than range to a surface: one contact for each such surface. `moved` is the largest
   /// displacement since build().
   const std::vector<Contact> &contacts(const double *x, double range, double moved);

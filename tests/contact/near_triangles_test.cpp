@@ -124,12 +124,24 @@ TEST(Finder, PointOnTheSurface)
   }
 }
 
+TEST(Finder, TellsWhatMovedFurthest)
+{
+  test::Mesh mesh = test::icosphere(2);
+  const int corners = static_cast<int>(mesh.vertices.size());
+  NearTriangles finder;
+  finder.build(0, nullptr, corners, mesh.vertices[0].data(), {}, range, slack);
+  mesh.vertices[3][0] += 0.1;
+  mesh.vertices[5][1] -= 0.2;
+  EXPECT_EQ(finder.furthest_moved(mesh.vertices[0].data()), 5);
+  EXPECT_NEAR(finder.largest_displacement(mesh.vertices[0].data()), 0.2, 1e-15);
+}
+
 TEST(Finder, NothingNear)
 {
   NearTriangles finder;
-  std::vector<NearTriangles::Triangle> none;
-  finder.build(0, nullptr, 0, nullptr, none, range, slack);
+  finder.build(0, nullptr, 0, nullptr, {}, range, slack);
   EXPECT_EQ(finder.largest_displacement(nullptr), 0);
+  EXPECT_EQ(finder.furthest_moved(nullptr), -1);
   EXPECT_TRUE(finder.contacts(nullptr, range, 0).empty());
 }
 
