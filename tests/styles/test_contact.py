@@ -126,7 +126,7 @@ class Forces(unittest.TestCase):
                     np.testing.assert_allclose(dump.forces(), expected, atol=1e-13 * abs(both).max(), rtol=0)
 
     def test_leaving_and_coming_back_loses_nothing(self):
-        steps = [0.04] * 25 + [-0.04] * 25
+        steps = [0.06] * 25 + [-0.06] * 25
         lines = ["group upper molecule 2", "run 0 post no"]
         lines += [f"displace_atoms upper move 0 0 {step}\nrun 0 post no" for step in steps]
         energy = run(contact(dump=None, run="\n".join(lines))).thermo["c_pe"]
