@@ -9,11 +9,13 @@
 #include "force.h"
 #include "group.h"
 #include "modify.h"
+#include "pair_rbc_jkr.h"
 #include "update.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -289,6 +291,11 @@ void FixRBCIB::setup(int /*vflag*/)
   motion->check_velocities();
   motion->reset_stopwatches();
   for (FixRBCMembrane *membrane : membranes) membrane->stopwatch.reset();
+  contact = dynamic_cast<PairRBCJKR *>(force->pair_match("rbc/jkr", 1));
+  if (contact) {
+    contact->finding.reset();
+    contact->interacting.reset();
+  }
   first_solve = fluid_fix->solves();
   fluid_fix->count_from_here();
 }
@@ -480,9 +487,18 @@ void FixRBCIB::post_run()
   if (solves == 0) return;
   double membrane = 0;
   for (const FixRBCMembrane *fix : membranes) membrane += fix->stopwatch.seconds();
-  double seconds[5] = {membrane, motion->spreading.seconds(), motion->solving.seconds(),
-                       motion->interpolating.seconds(), motion->exchanging.seconds()};
-  MPI_Allreduce(MPI_IN_PLACE, seconds, 5, MPI_DOUBLE, MPI_SUM, world);
+  std::vector<std::string> names = {"Membrane", "Spread", "Solve", "Interpolate", "Exchange"};
+  std::vector<double> seconds = {membrane, motion->spreading.seconds(), motion->solving.seconds(),
+                                 motion->interpolating.seconds(), motion->exchanging.seconds()};
+  if (contact) {
+    names.insert(names.begin() + 1, {"Detection", "Contact"});
+    seconds.insert(seconds.begin() + 1,
+                   {contact->finding.seconds(), contact->interacting.seconds()});
+  }
+  names.emplace_back("Total");
+  seconds.push_back(std::accumulate(seconds.begin(), seconds.end(), 0.0));
+  MPI_Allreduce(MPI_IN_PLACE, seconds.data(), static_cast<int>(seconds.size()), MPI_DOUBLE, MPI_SUM,
+                world);
   bigint mine = static_cast<bigint>(motion->members().size()), vertices;
   MPI_Allreduce(&mine, &vertices, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   const bigint steps = update->ntimestep - first_step;
@@ -490,19 +506,17 @@ void FixRBCIB::post_run()
   if (comm->me != 0) return;
 
   const double cells = static_cast<double>(fluid_fix->flow().grid().size());
-  const double sum = seconds[0] + seconds[1] + seconds[2] + seconds[3] + seconds[4];
   std::string text =
       fmt::format("\nUSER-RBC step cost: {} solves in {} steps, {} vertices, {:.0f} fluid cells, "
                   "{} MPI task{}\n"
                   "Section     | core s/solve | us/vertex | ns/cell | %share\n"
                   "-------------------------------------------------------\n",
                   solves, steps, vertices, cells, comm->nprocs, comm->nprocs > 1 ? "s" : "");
-  const char *const names[5] = {"Membrane", "Spread", "Solve", "Interpolate", "Exchange"};
-  for (int n = 0; n <= 5; ++n) {
-    const double each = (n < 5 ? seconds[n] : sum) / solves;
-    text += fmt::format(
-        "{:<11} | {:12.5g} | {:9.4g} | {:7.4g} | {:6.2f}\n", n < 5 ? names[n] : "Total", each,
-        vertices > 0 ? each / vertices * 1e6 : 0.0, each / cells * 1e9, 100 * each * solves / sum);
+  for (std::size_t n = 0; n < names.size(); ++n) {
+    const double each = seconds[n] / solves;
+    text += fmt::format("{:<11} | {:12.5g} | {:9.4g} | {:7.4g} | {:6.2f}\n", names[n], each,
+                        vertices > 0 ? each / vertices * 1e6 : 0.0, each / cells * 1e9,
+                        100 * seconds[n] / seconds.back());
   }
   utils::logmesg(lmp, text + costs);
   if (unconverged > 0)

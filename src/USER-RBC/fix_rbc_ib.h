@@ -53,6 +53,7 @@ class FixRBCIB : public Fix {
   class FixRBCFluid *fluid_fix = nullptr;
   bool inertia = false;    // of the fluid
   std::vector<class FixRBCMembrane *> membranes;
+  class PairRBCJKR *contact = nullptr;
   std::unique_ptr<MarkerMotion> motion;
   std::unique_ptr<SteadySteps> steady;
 

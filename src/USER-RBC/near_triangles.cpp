@@ -2,6 +2,7 @@
 
 #include "arc_tangent.h"
 #include "closest_point.h"
+#include "vector_loop.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,10 @@
 namespace rbc {
 
 namespace {
+
+// distance over an edge's length below which the line to a point has no direction
+
+constexpr double TOUCHING = 1e-10;
 
 PlainVector at(const double *x, int n)
 {
@@ -21,8 +26,10 @@ double square(double s)
   return s * s;
 }
 
+}    // namespace
+
 /// Boxes of equal size that cover the points; what is outside counts to those at the rim.
-class Bins {
+class NearTriangles::Bins {
  public:
   Bins(const double *x, int points, double size)
   {
@@ -39,12 +46,12 @@ class Bins {
       }
     double volume = 1;
     for (int d = 0; d < 3; ++d) volume *= std::max(hi[d] - lo[d], size);
-    size = std::max(size, std::cbrt(volume / most));
+    size_ = std::max(size, std::cbrt(volume / most));
+    inverse_ = 1 / size_;
     for (int d = 0; d < 3; ++d) {
       lo_[d] = lo[d];
-      count_[d] = points > 0 ? static_cast<int>((hi[d] - lo[d]) / size) + 1 : 1;
+      count_[d] = points > 0 ? static_cast<int>((hi[d] - lo[d]) * inverse_) + 1 : 1;
     }
-    inverse_ = 1 / size;
   }
 
   int count() const { return count_[0] * count_[1] * count_[2]; }
@@ -55,70 +62,145 @@ class Bins {
   }
   int of(PlainVector x) const { return index(along(0, x.x), along(1, x.y), along(2, x.z)); }
 
+  /// Distance along a direction to the bins numbered n there; those at the rim have no end.
+  double distance(int d, int n, double x) const
+  {
+    const double lower = n == 0 ? x : lo_[d] + n * size_;
+    const double upper = n == count_[d] - 1 ? x : lo_[d] + (n + 1) * size_;
+    return std::max({0.0, lower - x, x - upper});
+  }
+
  private:
-  double lo_[3], inverse_;
+  double lo_[3], size_, inverse_;
   int count_[3];
 };
 
-}    // namespace
+void NearTriangles::Spheres::resize(std::size_t size)
+{
+  for (auto *numbers : {&x, &y, &z, &radius}) numbers->resize(size);
+  surface.resize(size);
+  triangle.resize(size);
+}
+
+void NearTriangles::Spheres::set(int n, PlainVector centre, double r, Surface s, int t)
+{
+  x[n] = centre.x;
+  y[n] = centre.y;
+  z[n] = centre.z;
+  radius[n] = r;
+  surface[n] = s;
+  triangle[n] = t;
+}
 
 void NearTriangles::build(int points, const Surface *surfaces, int corners, const double *x,
                           const std::vector<Triangle> &triangles, double range, double slack)
 {
   triangles_ = triangles;
-  built_.assign(x, x + 3 * std::size_t(std::max(points, corners)));
+  built_.assign(x, x + 3 * std::size_t(corners));
   build_fans(corners);
-  bound(x);
-
-  double largest = 0;
-  for (const Sphere &sphere : spheres_) largest = std::max(largest, sphere.radius);
-  const double reach = range + slack, far = reach + largest;
-  const Bins bins(x, corners, far / 2);
-  bin_begin_.assign(bins.count() + 1, 0);
-  bin_of_.resize(spheres_.size());
-  for (std::size_t s = 0; s < spheres_.size(); ++s) {
-    bin_of_[s] = bins.of(spheres_[s].centre);
-    ++bin_begin_[bin_of_[s] + 1];
-  }
-  for (int b = 0; b < bins.count(); ++b) bin_begin_[b + 1] += bin_begin_[b];
-  sorted_.resize(spheres_.size());
-  std::vector<int> next(bin_begin_.begin(), bin_begin_.end() - 1);
-  for (std::size_t s = 0; s < spheres_.size(); ++s) sorted_[next[bin_of_[s]]++] = spheres_[s];
+  const double reach = range + slack, far = reach + bound_triangles(x);
+  const Bins bins(x, corners, far);
+  sort_spheres(bins);
 
   groups_.clear();
   candidates_.clear();
   for (int n = 0; n < points; ++n) {
-    const PlainVector p = at(x, n);
-    const std::size_t first = candidates_.size();
-    const int i0 = bins.along(0, p.x - far), i1 = bins.along(0, p.x + far);
-    const int j0 = bins.along(1, p.y - far), j1 = bins.along(1, p.y + far);
-    const int k0 = bins.along(2, p.z - far), k1 = bins.along(2, p.z + far);
-    for (int k = k0; k <= k1; ++k)
-      for (int j = j0; j <= j1; ++j)
-        for (int s = bin_begin_[bins.index(i0, j, k)]; s < bin_begin_[bins.index(i1, j, k) + 1];
-             ++s) {
-          const Sphere &sphere = sorted_[s];
-          const PlainVector apart = p - sphere.centre;
-          if (dot(apart, apart) > square(reach + sphere.radius)) continue;
-          const Triangle &triangle = triangles_[sphere.triangle];
-          if (triangle.surface == surfaces[n]) continue;
-          const PlainVector a = at(x, triangle.corner[0]), b = at(x, triangle.corner[1]),
-                            c = at(x, triangle.corner[2]);
-          const double distance =
-              norm(p - weighted_point(closest_point_weights(p, a, b, c), a, b, c));
-          if (distance <= reach)
-            candidates_.push_back({triangle.surface, distance, sphere.triangle});
-        }
-    if (candidates_.size() == first) continue;
-    std::sort(candidates_.begin() + first, candidates_.end(),
-              [](const Candidate &a, const Candidate &b) {
-                return a.surface != b.surface ? a.surface < b.surface : a.distance < b.distance;
-              });
-    for (std::size_t c = first; c < candidates_.size(); ++c) {
-      if (c == first || candidates_[c].surface != candidates_[c - 1].surface)
-        groups_.push_back({n, static_cast<int>(c), 0});
-      groups_.back().end = static_cast<int>(c) + 1;
+    find_hits(bins, at(x, n), surfaces[n], reach, far);
+    add_candidates(x, n, reach);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   returns the largest radius
+------------------------------------------------------------------------- */
+
+double NearTriangles::bound_triangles(const double *x)
+{
+  bounds_.resize(triangles_.size());
+  double largest2 = 0;
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const PlainVector a = at(x, triangles_[t].corner[0]), b = at(x, triangles_[t].corner[1]),
+                      c = at(x, triangles_[t].corner[2]);
+    const PlainVector centre = (1.0 / 3) * (a + b + c);
+    const double radius2 = std::max(
+        {dot(a - centre, a - centre), dot(b - centre, b - centre), dot(c - centre, c - centre)});
+    largest2 = std::max(largest2, radius2);
+    bounds_[t] = {centre, std::sqrt(radius2)};
+  }
+  return std::sqrt(largest2);
+}
+
+void NearTriangles::sort_spheres(const Bins &bins)
+{
+  const std::size_t count = triangles_.size();
+  bin_begin_.assign(bins.count() + 1, 0);
+  bin_of_.resize(count);
+  for (std::size_t t = 0; t < count; ++t) {
+    bin_of_[t] = bins.of(bounds_[t].centre);
+    ++bin_begin_[bin_of_[t] + 1];
+  }
+  for (int b = 0; b < bins.count(); ++b) bin_begin_[b + 1] += bin_begin_[b];
+  next_.assign(bin_begin_.begin(), bin_begin_.end() - 1);
+  spheres_.resize(count);
+  for (std::size_t t = 0; t < count; ++t)
+    spheres_.set(next_[bin_of_[t]]++, bounds_[t].centre, bounds_[t].radius, triangles_[t].surface,
+                 static_cast<int>(t));
+}
+
+/* ----------------------------------------------------------------------
+   triangles whose spheres are in reach of a point: those of a row of bins follow each other
+------------------------------------------------------------------------- */
+
+void NearTriangles::find_hits(const Bins &bins, PlainVector p, Surface own, double reach,
+                              double far)
+{
+  hits_.clear();
+  const int j0 = bins.along(1, p.y - far), j1 = bins.along(1, p.y + far);
+  const int k0 = bins.along(2, p.z - far), k1 = bins.along(2, p.z + far);
+  constexpr int most = 64;
+  char hit[most];
+  for (int k = k0; k <= k1; ++k)
+    for (int j = j0; j <= j1; ++j) {
+      const double left =
+          square(far) - square(bins.distance(1, j, p.y)) - square(bins.distance(2, k, p.z));
+      if (left < 0) continue;
+      const double along = std::sqrt(left);
+      const int begin = bin_begin_[bins.index(bins.along(0, p.x - along), j, k)];
+      const int end = bin_begin_[bins.index(bins.along(0, p.x + along), j, k) + 1];
+      for (int first = begin; first < end; first += most) {
+        const int count = std::min(most, end - first);
+        const double *const x = &spheres_.x[first], *const y = &spheres_.y[first],
+                            *const z = &spheres_.z[first], *const radius = &spheres_.radius[first];
+        const Surface *const surface = &spheres_.surface[first];
+        for_each(count, [&](int n) {
+          const double apart2 = square(x[n] - p.x) + square(y[n] - p.y) + square(z[n] - p.z);
+          hit[n] = (apart2 <= square(reach + radius[n])) & (surface[n] != own);
+        });
+        for (int n = 0; n < count; ++n)
+          if (hit[n]) hits_.push_back(spheres_.triangle[first + n]);
+      }
     }
+}
+
+void NearTriangles::add_candidates(const double *x, int point, double reach)
+{
+  const PlainVector p = at(x, point);
+  const std::size_t first = candidates_.size();
+  for (int t : hits_) {
+    const Triangle &triangle = triangles_[t];
+    const PlainVector a = at(x, triangle.corner[0]), b = at(x, triangle.corner[1]),
+                      c = at(x, triangle.corner[2]);
+    const double distance = norm(p - weighted_point(closest_point_weights(p, a, b, c), a, b, c));
+    if (distance <= reach) candidates_.push_back({triangle.surface, distance, t});
+  }
+  std::sort(candidates_.begin() + first, candidates_.end(),
+            [](const Candidate &a, const Candidate &b) {
+              return a.surface != b.surface ? a.surface < b.surface : a.distance < b.distance;
+            });
+  for (std::size_t c = first; c < candidates_.size(); ++c) {
+    if (c == first || candidates_[c].surface != candidates_[c - 1].surface)
+      groups_.push_back({point, static_cast<int>(c), 0});
+    groups_.back().end = static_cast<int>(c) + 1;
   }
 }
 
@@ -129,31 +211,32 @@ void NearTriangles::build_fans(int corners)
     for (int v : triangle.corner) ++fan_begin_[v + 1];
   for (int v = 0; v < corners; ++v) fan_begin_[v + 1] += fan_begin_[v];
   fans_.resize(fan_begin_[corners]);
-  std::vector<int> next(fan_begin_.begin(), fan_begin_.end() - 1);
+  next_.assign(fan_begin_.begin(), fan_begin_.end() - 1);
   for (std::size_t t = 0; t < triangles_.size(); ++t)
-    for (int v : triangles_[t].corner) fans_[next[v]++] = static_cast<int>(t);
-}
-
-void NearTriangles::bound(const double *x)
-{
-  spheres_.resize(triangles_.size());
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    const PlainVector a = at(x, triangles_[t].corner[0]), b = at(x, triangles_[t].corner[1]),
-                      c = at(x, triangles_[t].corner[2]);
-    const PlainVector centre = (1.0 / 3) * (a + b + c);
-    const double radius2 = std::max(
-        {dot(a - centre, a - centre), dot(b - centre, b - centre), dot(c - centre, c - centre)});
-    spheres_[t] = {centre, std::sqrt(radius2), static_cast<int>(t)};
-  }
+    for (int v : triangles_[t].corner) fans_[next_[v]++] = static_cast<int>(t);
 }
 
 double NearTriangles::largest_displacement(const double *x) const
 {
   double largest2 = 0;
-  for (std::size_t n = 0; n < built_.size(); n += 3)
-    largest2 = std::max(largest2, square(x[n] - built_[n]) + square(x[n + 1] - built_[n + 1]) +
-                                      square(x[n + 2] - built_[n + 2]));
+  for (std::size_t n = 0; n < built_.size(); n += 3) {
+    const PlainVector moved = at(x, n / 3) - at(built_.data(), n / 3);
+    largest2 = std::max(largest2, dot(moved, moved));
+  }
   return std::sqrt(largest2);
+}
+
+int NearTriangles::furthest_moved(const double *x) const
+{
+  int furthest = -1;
+  double largest2 = -1;
+  for (int n = 0; n < static_cast<int>(built_.size() / 3); ++n) {
+    const PlainVector moved = at(x, n) - at(built_.data(), n);
+    if (dot(moved, moved) <= largest2) continue;
+    largest2 = dot(moved, moved);
+    furthest = n;
+  }
+  return furthest;
 }
 
 /* ----------------------------------------------------------------------
@@ -192,8 +275,9 @@ const std::vector<NearTriangles::Contact> &NearTriangles::contacts(const double 
     const PlainVector out = outward(x, nearest->corner, weight, cross(b - a, c - a));
     const double distance = std::sqrt(nearest2);
     const bool inside = dot(apart, out) < 0;
+    const bool has_direction = nearest2 > square(TOUCHING) * dot(b - a, b - a);
     const PlainVector normal =
-        distance > 0 ? (inside ? -1 / distance : 1 / distance) * apart : (1 / norm(out)) * out;
+        has_direction ? (inside ? -1 / distance : 1 / distance) * apart : (1 / norm(out)) * out;
     contacts_.push_back(
         {group.point, nearest->corner, weight, normal, inside ? -distance : distance});
   }
@@ -230,11 +314,13 @@ PlainVector NearTriangles::outward(const double *x, const std::array<int, 3> &co
 
 std::size_t NearTriangles::bytes() const
 {
-  return triangles_.capacity() * sizeof(Triangle) +
-         (fan_begin_.capacity() + fans_.capacity() + bin_begin_.capacity() + bin_of_.capacity()) *
-             sizeof(int) +
+  std::size_t integers = 0;
+  for (const auto *numbers : {&fan_begin_, &fans_, &bin_begin_, &bin_of_, &next_, &hits_})
+    integers += numbers->capacity();
+  return integers * sizeof(int) + triangles_.capacity() * sizeof(Triangle) +
          built_.capacity() * sizeof(double) +
-         (spheres_.capacity() + sorted_.capacity()) * sizeof(Sphere) +
+         bounds_.capacity() *
+             (sizeof(Sphere) + 4 * sizeof(double) + sizeof(Surface) + sizeof(int)) +
          groups_.capacity() * sizeof(Group) + candidates_.capacity() * sizeof(Candidate) +
          contacts_.capacity() * sizeof(Contact);
 }

@@ -29,13 +29,16 @@ class NearTriangles {
     double gap;            ///< distance, negative inside
   };
 
-  /// Takes a surface apart anew: `surfaces[n]` is that of point n < points, triangles have their corners among the
-  /// `corners` first positions. Finds what comes within `range` of each other before a point has moved by slack / 2.
+  /// Finds what comes within `range` of each other before a corner has moved by slack / 2. `surfaces[n]` is that of
+  /// point n < points; triangles have their corners among the `corners` first positions.
   void build(int points, const Surface *surfaces, int corners, const double *x,
              const std::vector<Triangle> &triangles, double range, double slack);
 
   /// Largest distance that a corner moved since build().
   double largest_displacement(const double *x) const;
+
+  /// The corner that moved furthest, -1 if there is none.
+  int furthest_moved(const double *x) const;
 
   /// All points nearer than range to a surface: one contact for each such surface. `moved` is the largest
   /// displacement since build().
@@ -54,24 +57,37 @@ class NearTriangles {
     double distance;
     int triangle;
   };
-  /// Bounding sphere.
   struct Sphere {
     PlainVector centre;
     double radius;
-    int triangle;
+  };
+  /// Bounding spheres of triangles, in the order of their bins.
+  struct Spheres {
+    std::vector<double> x, y, z, radius;
+    std::vector<Surface> surface;
+    std::vector<int> triangle;
+
+    void resize(std::size_t size);
+    void set(int n, PlainVector centre, double radius, Surface surface, int triangle);
   };
 
   std::vector<Triangle> triangles_;
   std::vector<int> fan_begin_, fans_;    // triangles around each corner
   std::vector<double> built_;            // positions
-  std::vector<Sphere> spheres_, sorted_;
-  std::vector<int> bin_begin_, bin_of_;
+  std::vector<Sphere> bounds_;           // of each triangle
+  Spheres spheres_;
+  std::vector<int> bin_begin_, bin_of_, next_, hits_;
   std::vector<Group> groups_;
   std::vector<Candidate> candidates_;
   std::vector<Contact> contacts_;
 
+  class Bins;
+
   void build_fans(int corners);
-  void bound(const double *x);
+  double bound_triangles(const double *x);
+  void sort_spheres(const Bins &bins);
+  void find_hits(const Bins &bins, PlainVector point, Surface own, double reach, double far);
+  void add_candidates(const double *x, int point, double reach);
   PlainVector outward(const double *x, const std::array<int, 3> &corner,
                       const std::array<double, 3> &weight, PlainVector face) const;
 };

@@ -157,14 +157,23 @@ int NearSurfaces::image_near(int i, tagint id, double longest) const
 const std::vector<NearSurfaces::Contact> &NearSurfaces::contacts(double range)
 {
   const double moved = finder.largest_displacement(atom->x[0]);
-  if (!(2 * moved <= built_slack))
-    stop.report(fmt::format(
-        "{}: atoms moved by {:.4g} since step {}, when the neighbors were found, more than half of "
-        "the neighbor skin {:.6g}, at step {}: raise the skin with the neighbor command, or lower "
-        "the timestep",
-        style, moved, neighbor->lastcall, built_slack, update->ntimestep));
+  if (!(2 * moved <= built_slack)) report_moved(moved);
   stop.check();
   return finder.contacts(atom->x[0], range, moved);
+}
+
+void NearSurfaces::report_moved(double distance)
+{
+  const int i = finder.furthest_moved(atom->x[0]);
+  const double *const x = atom->x[i];
+  stop.report(
+      fmt::format("{}: vertices moved by up to {:.4g} since step {}, when their neighbors were "
+                  "found, more than "
+                  "half of the neighbor skin {:.6g}, at step {}: cell with molecule ID {} near "
+                  "({:.6g}, {:.6g}, "
+                  "{:.6g}); raise the skin with the neighbor command, or lower the timestep",
+                  style, distance, neighbor->lastcall, built_slack, update->ntimestep,
+                  atom->molecule[i], x[0], x[1], x[2]));
 }
 
 /* ---------------------------------------------------------------------- */

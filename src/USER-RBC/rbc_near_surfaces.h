@@ -68,6 +68,7 @@ class NearSurfaces : protected Pointers {
   const Shape *shape_of(int i) const;
   double longest_known_edge(double range, double slack) const;
   void collect_triangles(double longest);
+  void report_moved(double distance);
   int image_near(int i, tagint id, double longest) const;
 };
 

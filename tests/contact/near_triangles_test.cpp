@@ -1,0 +1,148 @@
+#include "near_triangles.h"
+
+#include "test_support.h"
+
+#include <optional>
+
+using rbc::NearTriangles;
+using test::Vec3;
+
+namespace {
+
+constexpr double range = 0.25, slack = 0.1;
+
+/// Several cells side by side, so close that they overlap a little, as one array of points.
+class Cells {
+ public:
+  explicit Cells(unsigned seed)
+  {
+    test::Random random(seed);
+    const std::vector<test::Mesh> meshes = {test::icosphere(4), test::disc(5),
+                                            test::cuboid({1.1, 0.9, 0.8}, 4), test::disc(3)};
+    const Vec3 places[] = {{0, 0, 0}, {1.7, 0.3, 0.2}, {-0.5, 0.75, -0.4}, {0.3, -0.4, 1.15}};
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+      const test::Vertices shape = test::waved(meshes[m].vertices, seed + m);
+      for (const auto &t : meshes[m].triangles)
+        triangles.push_back(
+            {{t[0] + size(), t[1] + size(), t[2] + size()}, NearTriangles::Surface(m + 7)});
+      const auto rotation = random.rotation();
+      for (const Vec3 &v : shape) x.push_back(rotation * v + places[m]);
+      surfaces.resize(x.size(), m + 7);
+    }
+  }
+
+  int size() const { return static_cast<int>(x.size()); }
+  const double *data() const { return x[0].data(); }
+
+  void move(double distance, unsigned seed)
+  {
+    test::Random random(seed);
+    for (Vec3 &v : x) v += distance * random.direction();
+  }
+
+  /// Signed distance of a point to a surface, if below range.
+  std::optional<double> gap(int point, NearTriangles::Surface surface) const
+  {
+    double nearest = HUGE_VAL, turns = 0;
+    for (const auto &t : triangles) {
+      if (t.surface != surface) continue;
+      const Vec3 &a = x[t.corner[0]], &b = x[t.corner[1]], &c = x[t.corner[2]];
+      nearest = std::min(nearest, (x[point] - test::closest_point(x[point], a, b, c)).norm());
+      turns += test::winding(x[point], a, b, c);
+    }
+    if (nearest >= range) return {};
+    return turns > 0.5 ? -nearest : nearest;
+  }
+
+  std::vector<Vec3> x;
+  std::vector<NearTriangles::Surface> surfaces;
+  std::vector<NearTriangles::Triangle> triangles;
+};
+
+class Finder : public testing::TestWithParam<unsigned> {};
+
+TEST_P(Finder, AgreesWithAllDistancesAndSolidAngles)
+{
+  Cells cells(GetParam());
+  NearTriangles finder;
+  finder.build(cells.size(), cells.surfaces.data(), cells.size(), cells.data(), cells.triangles,
+               range, slack);
+  for (double moved : {0.0, 0.3 * slack, 0.5 * slack}) {
+    Cells there = cells;
+    there.move(moved, 5);
+    EXPECT_NEAR(finder.largest_displacement(there.data()), moved, 1e-12);
+    std::map<std::pair<int, NearTriangles::Surface>, double> found;
+    for (const auto &contact : finder.contacts(there.data(), range, moved)) {
+      const auto surface = there.surfaces[contact.corner[0]];
+      EXPECT_TRUE(found.emplace(std::make_pair(contact.point, surface), contact.gap).second);
+      Vec3 p = Vec3::Zero();
+      for (int c = 0; c < 3; ++c) p += contact.weight[c] * there.x[contact.corner[c]];
+      const Vec3 normal(contact.normal.x, contact.normal.y, contact.normal.z);
+      EXPECT_NEAR((there.x[contact.point] - p - contact.gap * normal).norm(), 0, 1e-12);
+      EXPECT_NEAR(normal.norm(), 1, 1e-12);
+    }
+    int inside = 0, expected = 0;
+    for (int n = 0; n < there.size(); ++n)
+      for (NearTriangles::Surface surface = 7; surface < 11; ++surface) {
+        if (surface == there.surfaces[n]) continue;
+        const auto gap = there.gap(n, surface);
+        const auto contact = found.find({n, surface});
+        ASSERT_EQ(gap.has_value(), contact != found.end()) << n << " " << surface;
+        if (!gap) continue;
+        EXPECT_NEAR(*gap, contact->second, 1e-12) << n << " " << surface;
+        ++expected;
+        inside += *gap < 0;
+      }
+    EXPECT_GT(inside, 20);
+    EXPECT_GT(expected - inside, 50);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, Finder, testing::Values(1, 2, 3, 4, 5, 6));
+
+TEST(Finder, PointOnTheSurface)
+{
+  test::Mesh mesh = test::icosphere(2);
+  const int corners = static_cast<int>(mesh.vertices.size());
+  std::vector<NearTriangles::Triangle> triangles;
+  for (const auto &t : mesh.triangles) triangles.push_back({t, 1});
+  const auto &first = mesh.triangles[0];
+  mesh.vertices.push_back(
+      (mesh.vertices[first[0]] + mesh.vertices[first[1]] + mesh.vertices[first[2]]) / 3);
+  mesh.vertices.push_back(mesh.vertices[first[0]]);
+  std::vector<NearTriangles::Surface> surfaces(corners, 1);
+  surfaces.resize(corners + 2, 2);
+  NearTriangles finder;
+  finder.build(corners + 2, surfaces.data(), corners + 2, mesh.vertices[0].data(), triangles, range,
+               0);
+  const auto &contacts = finder.contacts(mesh.vertices[0].data(), range, 0);
+  ASSERT_EQ(contacts.size(), 2u);
+  for (const auto &contact : contacts) {
+    EXPECT_NEAR(contact.gap, 0, 1e-15);
+    const Vec3 normal(contact.normal.x, contact.normal.y, contact.normal.z);
+    EXPECT_GT(std::abs(normal.dot(mesh.vertices[contact.point].normalized())), 0.99);
+  }
+}
+
+TEST(Finder, TellsWhatMovedFurthest)
+{
+  test::Mesh mesh = test::icosphere(2);
+  const int corners = static_cast<int>(mesh.vertices.size());
+  NearTriangles finder;
+  finder.build(0, nullptr, corners, mesh.vertices[0].data(), {}, range, slack);
+  mesh.vertices[3][0] += 0.1;
+  mesh.vertices[5][1] -= 0.2;
+  EXPECT_EQ(finder.furthest_moved(mesh.vertices[0].data()), 5);
+  EXPECT_NEAR(finder.largest_displacement(mesh.vertices[0].data()), 0.2, 1e-15);
+}
+
+TEST(Finder, NothingNear)
+{
+  NearTriangles finder;
+  finder.build(0, nullptr, 0, nullptr, {}, range, slack);
+  EXPECT_EQ(finder.largest_displacement(nullptr), 0);
+  EXPECT_EQ(finder.furthest_moved(nullptr), -1);
+  EXPECT_TRUE(finder.contacts(nullptr, range, 0).empty());
+}
+
+}    // namespace
