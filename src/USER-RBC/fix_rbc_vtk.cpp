@@ -2,6 +2,7 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "compute_rbc_aggregate.h"
 #include "domain.h"
 #include "error.h"
 #include "fix_rbc_membrane.h"
@@ -54,10 +55,14 @@ FixRBCVTK::FixRBCVTK(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
 
   for (int iarg = 5; iarg < narg; iarg += 2) {
     const std::string keyword = arg[iarg];
-    if (keyword != "unwrap")
-      error->all(FLERR, iarg, "Unknown fix rbc/vtk keyword {}; allowed: unwrap", keyword);
-    if (iarg + 1 >= narg) utils::missing_cmd_args(FLERR, "fix rbc/vtk unwrap", error);
-    unwrap = utils::logical(FLERR, arg[iarg + 1], false, lmp);
+    if (keyword != "unwrap" && keyword != "aggregate")
+      error->all(FLERR, iarg, "Unknown fix rbc/vtk keyword {}; allowed: unwrap, aggregate",
+                 keyword);
+    if (iarg + 1 >= narg) utils::missing_cmd_args(FLERR, "fix rbc/vtk " + keyword, error);
+    if (keyword == "unwrap")
+      unwrap = utils::logical(FLERR, arg[iarg + 1], false, lmp);
+    else
+      aggregate_id = arg[iarg + 1];
   }
 }
 
@@ -77,6 +82,19 @@ void FixRBCVTK::init()
   if (group->dynamic[igroup])
     error->all(FLERR, "Fix rbc/vtk {} cannot be used with dynamic group {}", id,
                group->names[igroup]);
+  aggregate = nullptr;
+  if (!aggregate_id.empty()) {
+    Compute *const compute = modify->get_compute_by_id(aggregate_id);
+    if (!compute)
+      error->all(FLERR, "Fix rbc/vtk {}: compute ID {} for aggregate does not exist", id,
+                 aggregate_id);
+    aggregate = dynamic_cast<ComputeRBCAggregate *>(compute);
+    if (!aggregate)
+      error->all(FLERR,
+                 "Fix rbc/vtk {}: compute {} for aggregate is of style {}, not rbc/aggregate", id,
+                 aggregate_id, compute->style);
+  }
+
   sources.clear();
   bool before = true;
   for (Fix *fix : modify->get_fix_list()) {
@@ -140,6 +158,16 @@ void FixRBCVTK::write()
   const std::string stem = name.substr(0, name.rfind('.'));
   const auto piece = [&](int rank) { return fmt::format("{}_{}.vtp", stem, rank); };
   const double time = update->atime + (last_step - update->atimestep) * update->dt;
+  rbc::PointData data{ARRAYS, {"molecule"}};
+  if (aggregate) {
+    data.labels.push_back("aggregate");
+    modify->clearstep_compute();
+    if (!(aggregate->invoked_flag & Compute::INVOKED_PERATOM)) {
+      aggregate->compute_peratom();
+      aggregate->invoked_flag |= Compute::INVOKED_PERATOM;
+    }
+    modify->addstep_compute((last_step / nevery + 1) * nevery);
+  }
 
   std::vector<std::vector<int>> writers;
   std::vector<rbc::VtpWriter::Block> blocks;
@@ -154,7 +182,7 @@ void FixRBCVTK::write()
     std::unique_ptr<rbc::VtpWriter> writer;
     if (pieces || comm->me == 0)
       writer =
-          std::make_unique<rbc::VtpWriter>(pieces ? piece(comm->me) : name, time, ARRAYS, blocks);
+          std::make_unique<rbc::VtpWriter>(pieces ? piece(comm->me) : name, time, data, blocks);
     for (std::size_t s = 0; s < sources.size(); ++s)
       write_cells(sources[s], static_cast<int>(s), writers[s], writer.get());
     if (writer) writer->close();
@@ -162,7 +190,7 @@ void FixRBCVTK::write()
       std::vector<std::string> names(comm->nprocs);
       for (int rank = 0; rank < comm->nprocs; ++rank)
         names[rank] = platform::path_basename(piece(rank));
-      rbc::write_pvtp(name, time, ARRAYS, names);
+      rbc::write_pvtp(name, time, data, names);
     }
   } catch (const std::runtime_error &problem) {
     error->one(FLERR, "Fix rbc/vtk {}: {}", id, problem.what());
@@ -245,7 +273,9 @@ void FixRBCVTK::write_cells(const Source &source, int block, const std::vector<i
   auto next = received.begin();
   std::vector<Vec3> x(size), v(size), f(size);
   std::vector<double> tension;
-  std::vector<double> message(2 + VALUES * size);    // slot, molecule, values
+  const int head = aggregate ? 3 : 2;    // slot and labels
+  std::vector<double> message(head + VALUES * size);
+  const auto write = [&] { writer->write(block, message[0], &message[1], &message[head]); };
   for (std::size_t n = 0; n < mine.size(); ++n) {
     const LocalCells::Cell &cell = *mine[n];
     for (int p = 0; p < size; ++p) {
@@ -265,12 +295,13 @@ void FixRBCVTK::write_cells(const Source &source, int block, const std::vector<i
 
     message[0] = pieces ? n : source.slots[cell.index];
     message[1] = static_cast<double>(local.molecules()[cell.index]);
-    double *at = message.data() + 2;
+    if (aggregate) message[2] = aggregate->vector_atom[cell.atom[0]];
+    double *at = message.data() + head;
     for (const std::vector<Vec3> *vectors : {&x, &v, &f})
       for (const Vec3 &vector : *vectors) at = std::copy_n(vector.data(), 3, at);
     std::copy(tension.begin(), tension.end(), at);
     if (writer)
-      writer->write(block, message[0], message[1], &message[2]);
+      write();
     else
       MPI_Ssend(message.data(), static_cast<int>(message.size()), MPI_DOUBLE, 0, 1 + block, world);
   }
@@ -279,7 +310,7 @@ void FixRBCVTK::write_cells(const Source &source, int block, const std::vector<i
   for (int n = static_cast<int>(mine.size()); n < source.count; ++n) {
     MPI_Recv(message.data(), static_cast<int>(message.size()), MPI_DOUBLE, MPI_ANY_SOURCE,
              1 + block, world, MPI_STATUS_IGNORE);
-    writer->write(block, message[0], message[1], &message[2]);
+    write();
   }
 }
 

@@ -39,6 +39,8 @@ class FixRBCVTK : public Fix {
   std::string file;
   bool pieces;    // a file for each rank
   bool unwrap = false;
+  std::string aggregate_id;    // of the compute whose aggregates are written, empty for none
+  class ComputeRBCAggregate *aggregate = nullptr;
   std::vector<Source> sources;
   bigint last_step = -1;
 

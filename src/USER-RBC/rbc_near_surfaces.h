@@ -27,6 +27,9 @@ class NearSurfaces : protected Pointers {
   /// Triangles' edges may be as long: half as long again as in the cells at rest.
   double longest_edge() const;
 
+  /// An error if ghosts do not reach far enough for build().
+  void check_ghosts(double range, double slack) const { longest_known_edge(range, slack); }
+
   /// Collective, with ghosts at their places: finds what comes nearer than `range` before atoms moved by slack / 2. The
   /// ghost cutoff must be the sum of range, slack and longest_edge() at least.
   void build(double range, double slack);

@@ -28,6 +28,11 @@ std::string type_of(const PointArray &array)
          attribute("NumberOfComponents", std::to_string(array.components));
 }
 
+std::string type_of(const std::string &label)
+{
+  return attribute("type", "Int64") + attribute("Name", label);
+}
+
 std::string head(const std::string &type)
 {
   return "<?xml version=\"1.0\"?>\n<VTKFile" + attribute("type", type) +
@@ -45,7 +50,6 @@ std::string time_value(double time)
 }
 
 const PointArray POINTS{"Points", 3};
-const std::string MOLECULE = attribute("type", "Int64") + attribute("Name", "molecule");
 
 [[noreturn]] void fail_with(const std::string &path, const std::string &problem)
 {
@@ -54,7 +58,7 @@ const std::string MOLECULE = attribute("type", "Int64") + attribute("Name", "mol
 
 }    // namespace
 
-VtpWriter::VtpWriter(std::string path, double time, const std::vector<PointArray> &arrays,
+VtpWriter::VtpWriter(std::string path, double time, const PointData &data,
                      const std::vector<Block> &blocks) :
     path_(std::move(path)),
     file_(nullptr, &std::fclose)
@@ -93,9 +97,12 @@ VtpWriter::VtpWriter(std::string path, double time, const std::vector<PointArray
   };
   point_array(POINTS);
   text += "      </Points>\n      <PointData>\n";
-  for (const PointArray &array : arrays) point_array(array);
-  molecule_ = section(sizeof(std::int64_t), vertices);
-  text += data_array(MOLECULE) + "      </PointData>\n      <Polys>\n";
+  for (const PointArray &array : data.arrays) point_array(array);
+  for (const std::string &label : data.labels) {
+    labels_.push_back(section(sizeof(std::int64_t), vertices));
+    text += data_array(type_of(label));
+  }
+  text += "      </PointData>\n      <Polys>\n";
   connectivity_ = section(3 * sizeof(Name), triangles);
   text += data_array(attribute("type", "Int32") + attribute("Name", "connectivity"));
   offsets_ = section(sizeof(Name), triangles);
@@ -104,8 +111,9 @@ VtpWriter::VtpWriter(std::string path, double time, const std::vector<PointArray
 
   const auto start = static_cast<std::int64_t>(text.size());
   end_ += start;
-  for (Section &values : values_) values.begin += start;
-  for (Section *other : {&molecule_, &connectivity_, &offsets_}) other->begin += start;
+  for (std::vector<Section> *sections : {&values_, &labels_})
+    for (Section &section : *sections) section.begin += start;
+  for (Section *section : {&connectivity_, &offsets_}) section->begin += start;
 
   file_.reset(std::fopen(path_.c_str(), "wb"));
   if (!file_) fail("cannot open file");
@@ -113,7 +121,7 @@ VtpWriter::VtpWriter(std::string path, double time, const std::vector<PointArray
   for (const Length &length : lengths) put(start + length.at, &length.bytes, LENGTH);
 }
 
-void VtpWriter::write(int block, std::int64_t cell, std::int64_t molecule, const double *values)
+void VtpWriter::write(int block, std::int64_t cell, const double *labels, const double *values)
 {
   const SurfaceTemplate &shape = *blocks_[block].shape;
   const auto triangles = static_cast<std::int64_t>(shape.triangles.size());
@@ -129,8 +137,10 @@ void VtpWriter::write(int block, std::int64_t cell, std::int64_t molecule, const
     place(section, first_vertex, values, shape.size());
     values += shape.size() * section.width / sizeof(double);
   }
-  const std::vector<std::int64_t> molecules(shape.size(), molecule);
-  place(molecule_, first_vertex, molecules.data(), shape.size());
+  for (const Section &section : labels_) {
+    const std::vector<std::int64_t> same(shape.size(), static_cast<std::int64_t>(*labels++));
+    place(section, first_vertex, same.data(), shape.size());
+  }
 
   std::vector<Name> corners, ends;
   for (const auto &triangle : shape.triangles) {
@@ -159,7 +169,7 @@ void VtpWriter::fail(const std::string &problem) const
   fail_with(path_, problem);
 }
 
-void write_pvtp(const std::string &path, double time, const std::vector<PointArray> &arrays,
+void write_pvtp(const std::string &path, double time, const PointData &data,
                 const std::vector<std::string> &pieces)
 {
   const auto data_array = [](const std::string &type) {
@@ -168,8 +178,9 @@ void write_pvtp(const std::string &path, double time, const std::vector<PointArr
   std::string text = head("PPolyData") + "  <PPolyData GhostLevel=\"0\">\n" + time_value(time) +
                      "    <PPoints>\n" + data_array(type_of(POINTS)) +
                      "    </PPoints>\n    <PPointData>\n";
-  for (const PointArray &array : arrays) text += data_array(type_of(array));
-  text += data_array(MOLECULE) + "    </PPointData>\n";
+  for (const PointArray &array : data.arrays) text += data_array(type_of(array));
+  for (const std::string &label : data.labels) text += data_array(type_of(label));
+  text += "    </PPointData>\n";
   for (const std::string &piece : pieces)
     text += "    <Piece" + attribute("Source", piece) + "/>\n";
   text += "  </PPolyData>\n</VTKFile>\n";

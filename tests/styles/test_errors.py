@@ -258,6 +258,30 @@ CELL_ERRORS = {
                               ["compute array", "out-of-range"]),
 }
 
+AGGREGATE = "compute a all rbc/aggregate "
+AGGREGATE_ERRORS = {
+    "no gap": (dict(compute=AGGREGATE), ["compute rbc/aggregate", "missing"]),
+    "gap no number": (dict(compute=AGGREGATE + "near"), ["near", "rbc/aggregate"]),
+    "gap zero": (dict(compute=AGGREGATE + "0"), ["rbc/aggregate", "gap 0", "> 0"]),
+    "gap negative": (dict(compute=AGGREGATE + "-0.2"), ["rbc/aggregate", "gap -0.2", "> 0"]),
+    "gap not a number": (dict(compute=AGGREGATE + "nan"), ["rbc/aggregate", "nan"]),
+    "gap infinite": (dict(compute=AGGREGATE + "inf"), ["rbc/aggregate", "inf"]),
+    "unknown keyword": (dict(compute=AGGREGATE + "0.2 volume 0.1"), ["rbc/aggregate", "keyword", "volume", "area"]),
+    "area missing": (dict(compute=AGGREGATE + "0.2 area"), ["compute rbc/aggregate area", "missing"]),
+    "area zero": (dict(compute=AGGREGATE + "0.2 area 0"), ["rbc/aggregate", "area 0", "above 0", "at most 1"]),
+    "area percent": (dict(compute=AGGREGATE + "0.2 area 10"), ["rbc/aggregate", "area 10", "above 0", "at most 1"]),
+    "area not a number": (dict(compute=AGGREGATE + "0.2 area nan"), ["rbc/aggregate", "area", "nan"]),
+    "no membrane": (dict(membrane=None, compute=AGGREGATE + "0.2", thermo="thermo_style custom step c_a[1]"),
+                    ["rbc/aggregate a", "needs a fix rbc/membrane"]),
+    "triclinic": (dict(last="change_box all triclinic", fluid=None, ib=None, membrane=None, thermo=None,
+                       compute=AGGREGATE + "0.2"), ["rbc/aggregate a", "orthogonal"]),
+    "ghost cutoff too short": (dict(compute=AGGREGATE + "0.2", before="comm_modify cutoff 2.5", ib=None, fluid=None,
+                                    thermo=None),
+                               ["rbc/aggregate a", "ghost cutoff 2.5", "0.2", "comm_modify cutoff"]),
+    "too few rows": (dict(compute=AGGREGATE + "0.2", thermo="thermo_style custom step c_a[2][1]"),
+                     ["compute array", "out-of-range"]),
+}
+
 CREATE_ERRORS = {
     "before the box": (dict(box=CREATE + "single 6 6 6", molecule=None, cells=None),
                        ["rbc/create", "after the simulation box"]),
@@ -400,6 +424,9 @@ class BadInput(unittest.TestCase):
 
     def test_compute_cell(self):
         self.check(CELL_ERRORS)
+
+    def test_compute_aggregate(self):
+        self.check(AGGREGATE_ERRORS)
 
     def test_create(self):
         self.check(CREATE_ERRORS)

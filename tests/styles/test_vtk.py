@@ -287,6 +287,31 @@ run         0
                         self.assertEqual(surfaces.open_edges(), 0)
                         self.assertEqual(len(surfaces.triangles), sum(2 * n - 4 for _, n in cells))
 
+    def test_aggregate_of_each_cell(self):
+        # two that touch, one alone and one outside the compute's group; the gap opens after the first frame
+        for ranks, end in ((1, "vtp"), (2, "vtp"), (4, "vtp"), (2, "pvtp")):
+            with self.subTest(ranks=ranks, end=end):
+                result = lammps_case.run(BOX.replace("12 0 12 0 12", "12 0 12 0 16") + f"""
+rbc/create  rbc single 6 6 6.1
+rbc/create  rbc single 6 6 9
+rbc/create  rbc single 6 6 0.5
+rbc/create  rbc single 6 6 3.4
+group       above molecule 2
+velocity    above set 0 0 1.5
+group       some molecule 1:3
+{MEMBRANE}
+fix         move all nve
+compute     agg some rbc/aggregate 0.6
+fix         out all rbc/vtk 1 cells.*.{end} aggregate agg
+timestep    1
+run         1
+""", ranks)
+                for step, expected in ((0, {1: 1, 2: 1, 3: 3, 4: 0}), (1, {1: 1, 2: 2, 3: 3, 4: 0})):
+                    arrays = Surfaces(result.path(f"cells.{step}.{end}")).arrays
+                    self.assertEqual(len(arrays["aggregate"]), 4 * 162)
+                    pairs = set(zip(arrays["molecule"].tolist(), arrays["aggregate"].tolist()))
+                    self.assertEqual(pairs, set(expected.items()))
+
     def test_runs_in_pieces_write_a_step_once(self):
         result = run_moving("fix out all rbc/vtk 2 cells.*.vtp", """
 run 4
@@ -311,9 +336,13 @@ run 3 pre no
                 ("10", r"Illegal fix rbc/vtk command: missing argument"),
                 ("10 cells.vtp", r"Fix rbc/vtk file name cells.vtp must contain a \*"),
                 ("10 cells.*.vtk", r"Fix rbc/vtk file name cells.\*.vtk must end in .vtp or .pvtp"),
-                ("10 cells.*.vtp wrap yes", r"Unknown fix rbc/vtk keyword wrap; allowed: unwrap"),
+                ("10 cells.*.vtp wrap yes", r"Unknown fix rbc/vtk keyword wrap; allowed: unwrap, aggregate"),
                 ("10 cells.*.vtp unwrap", r"Illegal fix rbc/vtk unwrap command: missing argument"),
                 ("10 cells.*.vtp unwrap maybe", r"Expected boolean"),
+                ("10 cells.*.vtp aggregate", r"Illegal fix rbc/vtk aggregate command: missing argument"),
+                ("10 cells.*.vtp aggregate agg", r"Fix rbc/vtk out: compute ID agg for aggregate does not exist"),
+                ("10 cells.*.vtp aggregate thermo_temp", r"compute thermo_temp for aggregate is of style temp, not "
+                 "rbc/aggregate"),
                 ("10 nowhere/cells.*.vtp", r"Fix rbc/vtk out: cannot open file nowhere/cells.0.vtp: No such file"),
                 ("10 nowhere/cells.*.pvtp", r"Fix rbc/vtk out: cannot open file nowhere/cells.0_\d.vtp: No such file")):
             with self.subTest(arguments=arguments):

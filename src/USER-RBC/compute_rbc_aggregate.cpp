@@ -1,0 +1,229 @@
+#include "compute_rbc_aggregate.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix_rbc_membrane.h"
+#include "memory.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+using rbc::TouchedShare;
+using rbc::Vec3;
+
+static constexpr int NCOLS = 3;
+
+/* ---------------------------------------------------------------------- */
+
+ComputeRBCAggregate::ComputeRBCAggregate(LAMMPS *lmp, int narg, char **arg) :
+    Compute(lmp, narg, arg), cells(lmp, fmt::format("Compute rbc/aggregate {}", id)),
+    near(lmp, fmt::format("Compute rbc/aggregate {}", id))
+{
+  if (narg < 4) utils::missing_cmd_args(FLERR, "compute rbc/aggregate", error);
+  gap = utils::numeric(FLERR, arg[3], false, lmp);
+  if (gap <= 0) error->all(FLERR, 3, "Compute rbc/aggregate gap {} must be > 0", arg[3]);
+
+  for (int iarg = 4; iarg < narg; iarg += 2) {
+    const std::string keyword = arg[iarg];
+    if (keyword != "area")
+      error->all(FLERR, iarg, "Unknown compute rbc/aggregate keyword {}; allowed: area", keyword);
+    if (iarg + 1 >= narg) utils::missing_cmd_args(FLERR, "compute rbc/aggregate area", error);
+    least_share = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
+    if (least_share <= 0 || least_share > 1)
+      error->all(FLERR, iarg + 1,
+                 "Compute rbc/aggregate area {} must be a share of a cell's surface, above 0 and "
+                 "at most 1",
+                 arg[iarg + 1]);
+  }
+
+  peratom_flag = 1;
+  size_peratom_cols = 0;
+  vector_flag = 1;
+  size_vector = 5;
+  extvector = 0;
+  array_flag = 1;
+  size_array_cols = NCOLS;
+  size_array_rows = 0;
+  size_array_rows_variable = 1;
+  extarray = 0;
+  memory->create(vector, size_vector, "rbc/aggregate:vector");
+}
+
+ComputeRBCAggregate::~ComputeRBCAggregate()
+{
+  memory->destroy(vector);
+  memory->destroy(array);
+  memory->destroy(vector_atom);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeRBCAggregate::init()
+{
+  if (domain->triclinic)
+    error->all(FLERR, "Compute rbc/aggregate {} requires an orthogonal box", id);
+  cells.find(groupbit);
+  near.init();
+  found_step = -1;
+
+  const int rows = rbc::AggregateSizes::class_count(cells.size());
+  if (rows == size_array_rows && array) return;
+  size_array_rows = rows;
+  memory->destroy(array);
+  memory->create(array, std::max(rows, 1), NCOLS, "rbc/aggregate:array");
+}
+
+/* ----------------------------------------------------------------------
+   atoms may move by half of the skin before ghosts are chosen anew
+------------------------------------------------------------------------- */
+
+void ComputeRBCAggregate::setup()
+{
+  near.check_ghosts(gap, neighbor->skin);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeRBCAggregate::compute_vector()
+{
+  invoked_vector = update->ntimestep;
+  find_aggregates();
+  vector[0] = sizes.aggregates();
+  vector[1] = sizes.mean();
+  vector[2] = sizes.median();
+  vector[3] = sizes.largest();
+  vector[4] = sizes.single_share();
+}
+
+void ComputeRBCAggregate::compute_array()
+{
+  invoked_array = update->ntimestep;
+  find_aggregates();
+  for (int n = 0; n < size_array_rows; ++n) {
+    const rbc::AggregateSizes::Class members = sizes.size_class(n);
+    array[n][0] = static_cast<double>(members.lower);
+    array[n][1] = members.aggregates;
+    array[n][2] = members.fraction;
+  }
+}
+
+void ComputeRBCAggregate::compute_peratom()
+{
+  invoked_peratom = update->ntimestep;
+  find_aggregates();
+  if (atom->nmax > nmax) {
+    nmax = atom->nmax;
+    memory->destroy(vector_atom);
+    memory->create(vector_atom, nmax, "rbc/aggregate:vector_atom");
+  }
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const int cell = cells.index_of(atom->molecule[i]);
+    vector_atom[i] = cell < 0 ? 0 : static_cast<double>(cells.molecules()[sets.find(cell)]);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ComputeRBCAggregate::find_aggregates()
+{
+  if (found_step == update->ntimestep) return;
+  found_step = update->ntimestep;
+  sets = rbc::DisjointSets(cells.size());
+  rbc::unite_touching(sets, gather(touched_here()), least_share);
+  sizes = rbc::AggregateSizes(sets);
+}
+
+/* ----------------------------------------------------------------------
+   what the vertices of this rank tell. Of a cell that it holds as a whole it knows whether it touches another, and
+   only pairs that join aggregates here go to the other ranks; the shares of other cells are added up there.
+------------------------------------------------------------------------- */
+
+std::vector<TouchedShare> ComputeRBCAggregate::touched_here()
+{
+  near.build(gap, neighbor->skin);
+  const Surface surface = surface_here();
+  std::vector<TouchedShare> touched;
+  for (const NearSurfaces::Contact &contact : near.contacts(gap)) {
+    const int cell = cells.index_of(atom->molecule[contact.point]);
+    const int other = cells.index_of(atom->molecule[contact.corner[0]]);
+    if (cell >= 0 && other >= 0) touched.push_back({cell, other, surface.share[contact.point]});
+  }
+  rbc::add_up(touched);
+
+  rbc::DisjointSets joined(cells.size());
+  const auto adds_nothing = [&](const TouchedShare &pair) {
+    if (least_share > 0 && surface.split[pair.cell]) return false;
+    return pair.share < least_share || !joined.unite(pair.cell, pair.other);
+  };
+  touched.erase(std::remove_if(touched.begin(), touched.end(), adds_nothing), touched.end());
+  return touched;
+}
+
+/* ----------------------------------------------------------------------
+   a vertex has a third of the area of the triangles around it
+------------------------------------------------------------------------- */
+
+ComputeRBCAggregate::Surface ComputeRBCAggregate::surface_here() const
+{
+  Surface surface{std::vector<double>(atom->nlocal), std::vector<char>(cells.size())};
+  if (least_share == 0) return surface;
+  for (FixRBCMembrane *fix : cells.membranes()) {
+    LocalCells &local = fix->local_cells();
+    std::vector<double> areas(local.cells().size());
+    std::vector<Vec3> x(fix->shape().size());
+    for (std::size_t c = 0; c < areas.size(); ++c) {
+      const LocalCells::Cell &cell = local.cells()[c];
+      local.gather(cell, x);
+      for (int t : cell.elements->triangles) {
+        const auto &[i, j, k] = fix->shape().triangles[t];
+        const double third = (x[j] - x[i]).cross(x[k] - x[i]).norm() / 6;
+        for (int v : {i, j, k}) {
+          if (!cell.elements->owned[v]) continue;
+          surface.share[cell.atom[v]] += third;
+          areas[c] += third;
+        }
+      }
+    }
+    local.sum_shared(areas, 1);
+
+    for (std::size_t c = 0; c < areas.size(); ++c) {
+      const LocalCells::Cell &cell = local.cells()[c];
+      for (int v = 0; v < fix->shape().size(); ++v)
+        if (cell.elements->owned[v]) surface.share[cell.atom[v]] /= areas[c];
+      const int index = cells.index_of(local.molecules()[cell.index]);
+      if (index >= 0) surface.split[index] = cell.shared >= 0;
+    }
+  }
+  return surface;
+}
+
+/* ----------------------------------------------------------------------
+   those of all ranks
+------------------------------------------------------------------------- */
+
+std::vector<TouchedShare> ComputeRBCAggregate::gather(const std::vector<TouchedShare> &mine) const
+{
+  if (comm->nprocs == 1) return mine;
+  const int bytes = static_cast<int>(mine.size() * sizeof(TouchedShare));
+  std::vector<int> counts(comm->nprocs), begins(comm->nprocs);
+  MPI_Allgather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+  for (int r = 1; r < comm->nprocs; ++r) begins[r] = begins[r - 1] + counts[r - 1];
+  std::vector<TouchedShare> all((begins.back() + counts.back()) / sizeof(TouchedShare));
+  MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, all.data(), counts.data(), begins.data(), MPI_BYTE,
+                 world);
+  return all;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ComputeRBCAggregate::memory_usage()
+{
+  return static_cast<double>(nmax + size_array_rows * NCOLS) * sizeof(double) +
+         static_cast<double>(cells.size()) * 2 * sizeof(int) + near.bytes();
+}

@@ -1,0 +1,56 @@
+#ifdef COMPUTE_CLASS
+// clang-format off
+ComputeStyle(rbc/aggregate,ComputeRBCAggregate);
+// clang-format on
+#else
+
+#ifndef LMP_COMPUTE_RBC_AGGREGATE_H
+#define LMP_COMPUTE_RBC_AGGREGATE_H
+
+#include "aggregate_sizes.h"
+#include "compute.h"
+#include "rbc_group_cells.h"
+#include "rbc_near_surfaces.h"
+#include "touching_cells.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class ComputeRBCAggregate : public Compute {
+ public:
+  ComputeRBCAggregate(class LAMMPS *, int, char **);
+  ~ComputeRBCAggregate() override;
+  void init() override;
+  void setup() override;
+  void compute_vector() override;
+  void compute_array() override;
+  void compute_peratom() override;
+  int lock_length() override { return size_array_rows; }
+  double memory_usage() override;
+
+ private:
+  struct Surface {
+    std::vector<double> share;    // of the area of its cell, for each atom here
+    std::vector<char> split;      // cells of which other ranks have a part
+  };
+
+  double gap;
+  double least_share = 0;    // of a cell's area that lies within the gap, 0 for any vertex
+  GroupCells cells;
+  NearSurfaces near;
+  rbc::DisjointSets sets{0};
+  rbc::AggregateSizes sizes;
+  bigint found_step = -1;
+  int nmax = 0;
+
+  void find_aggregates();
+  std::vector<rbc::TouchedShare> touched_here();
+  std::vector<rbc::TouchedShare> gather(const std::vector<rbc::TouchedShare> &) const;
+  Surface surface_here() const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif
