@@ -4,9 +4,11 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "force.h"
 #include "membrane_viscosity.h"
 #include "modify.h"
 #include "neighbor.h"
+#include "pair.h"
 #include "rbc_cell_template.h"
 #include "update.h"
 
@@ -196,6 +198,7 @@ void FixRBCMembrane::init()
   double reach = 0;
   for (Fix *fix : modify->get_fix_by_style("^rbc/membrane$"))
     reach = std::max(reach, dynamic_cast<FixRBCMembrane *>(fix)->reach());
+  if (force->pair) reach = std::max(reach, force->pair->cutforce);    // or LAMMPS warns
   comm->cutghostuser = ghost_cutoff = reach + neighbor->skin;
 }
 

@@ -206,7 +206,16 @@ double PairRBCJKR::range_of(int i, int j) const
 }
 
 /* ----------------------------------------------------------------------
-   the cutoff between atoms leaves ghosts enough for all corners of triangles in reach
+   two vertices may each move by half the skin until the next reneighboring, and by as much again within a step
+------------------------------------------------------------------------- */
+
+double PairRBCJKR::slack() const
+{
+  return 2 * neighbor->skin;
+}
+
+/* ----------------------------------------------------------------------
+   the cutoff between atoms, to which LAMMPS adds the skin, leaves ghosts enough for all corners of triangles in reach
 ------------------------------------------------------------------------- */
 
 double PairRBCJKR::init_one(int i, int j)
@@ -232,7 +241,7 @@ double PairRBCJKR::init_one(int i, int j)
     range = range_of(i, j);
     neighbor_calls = -1;    // fix adapt may have raised it
   }
-  return cutoff + surfaces->longest_edge();
+  return cutoff + surfaces->longest_edge() + slack() - neighbor->skin;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -267,7 +276,7 @@ void PairRBCJKR::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
   finding.start();
-  if (neighbors_changed()) surfaces->build(range, neighbor->skin);
+  if (neighbors_changed()) surfaces->build(range, slack());
   const auto &contacts = surfaces->contacts(range);
   finding.stop();
 

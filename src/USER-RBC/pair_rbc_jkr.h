@@ -57,6 +57,7 @@ class PairRBCJKR : public Pair {
   void allocate();
   rbc::TipContact make_tip(int, int) const;
   double range_of(int, int) const;
+  double slack() const;
   const rbc::TipContact &tip(int itype, int jtype) const;
   void check_cells();
   bool neighbors_changed();

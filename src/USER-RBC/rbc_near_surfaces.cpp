@@ -166,14 +166,13 @@ void NearSurfaces::report_moved(double distance)
 {
   const int i = finder.furthest_moved(atom->x[0]);
   const double *const x = atom->x[i];
-  stop.report(
-      fmt::format("{}: vertices moved by up to {:.4g} since step {}, when their neighbors were "
-                  "found, more than "
-                  "half of the neighbor skin {:.6g}, at step {}: cell with molecule ID {} near "
-                  "({:.6g}, {:.6g}, "
-                  "{:.6g}); raise the skin with the neighbor command, or lower the timestep",
-                  style, distance, neighbor->lastcall, built_slack, update->ntimestep,
-                  atom->molecule[i], x[0], x[1], x[2]));
+  stop.report(fmt::format(
+      "{}: vertices moved by up to {:.4g} since step {}, when their neighbors were found, more "
+      "than "
+      "{:.6g}, at step {}: cell with molecule ID {} near ({:.6g}, {:.6g}, {:.6g}); raise the skin "
+      "with the neighbor command, or lower the timestep",
+      style, distance, neighbor->lastcall, built_slack / 2, update->ntimestep, atom->molecule[i],
+      x[0], x[1], x[2]));
 }
 
 /* ---------------------------------------------------------------------- */

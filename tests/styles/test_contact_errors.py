@@ -65,7 +65,7 @@ class DuringARun(unittest.TestCase):
     def test_beyond_the_skin_within_a_step(self):
         for ranks in (1, 2):
             with self.subTest(ranks=ranks):
-                self.check(["pair rbc/jkr", "moved by", "skin 0.1", "raise the skin", "molecule ID 1"], ranks, earliest=0, latest=20,
+                self.check(["pair rbc/jkr", "moved by", "more than 0.1", "raise the skin", "molecule ID 1"], ranks, earliest=0, latest=20,
                            dumped=False, neighbor="neighbor 0.1 bin",
                            fluid=SHEAR["fluid"].replace("zlo 0 0 0", "zlo 0.004 0 0").replace("0.0012", "0.004"),
                            **contact())
