@@ -4,7 +4,8 @@ namespace rbc {
 
 namespace {
 
-constexpr double largest_slope = 1.2;    ///< of the interpolated distance, 1 but for its error
+constexpr double largest_slope =
+    1.5;    // of the distance field: 1 but for its error, sqrt 2 beyond its grid
 constexpr int search_steps = 4;
 
 /// Coordinates of the probe's template in those of the body's.

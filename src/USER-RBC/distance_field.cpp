@@ -87,19 +87,19 @@ class ExactDistance {
 
 }    // namespace
 
-DistanceField::DistanceField(const SurfaceTemplate &surface, double reach) : reach_(reach)
+DistanceField::DistanceField(const SurfaceTemplate &surface, double reach) :
+    lo_(surface.vertices[0]), hi_(lo_)
 {
-  lo_ = surface.vertices[0];
-  Vec3 hi = lo_;
   for (const Vec3 &vertex : surface.vertices) {
     lo_ = lo_.cwiseMin(vertex);
-    hi = hi.cwiseMax(vertex);
+    hi_ = hi_.cwiseMax(vertex);
   }
-  spacing_ = (hi - lo_).maxCoeff() / 2 / spacings_per_radius;
+  spacing_ = (hi_ - lo_).maxCoeff() / 2 / spacings_per_radius;
   lo_.array() -= reach;
-  hi.array() += reach;
-  for (int d = 0; d < 3; ++d)
-    nodes_[d] = 2 + static_cast<int>(std::ceil((hi[d] - lo_[d]) / spacing_));
+  for (int d = 0; d < 3; ++d) {
+    nodes_[d] = 1 + static_cast<int>(std::ceil((hi_[d] + reach - lo_[d]) / spacing_));
+    hi_[d] = lo_[d] + (nodes_[d] - 1) * spacing_;
+  }
 
   const ExactDistance exact(surface);
   distance_.reserve(std::size_t(nodes_[0]) * nodes_[1] * nodes_[2]);
@@ -117,12 +117,25 @@ DistanceField::DistanceField(const SurfaceTemplate &surface, double reach) : rea
 
 DistanceField::Sample DistanceField::at(const Vec3 &x) const
 {
+  const Vec3 nearest = x.cwiseMax(lo_).cwiseMin(hi_), beyond = x - nearest;
+  Sample sample = interpolated(nearest);
+  const double distance = beyond.norm();
+  if (distance > 0) {
+    sample.distance += distance;
+    for (int d = 0; d < 3; ++d)
+      if (beyond[d] != 0) sample.gradient[d] = 0;
+    sample.gradient += beyond / distance;
+  }
+  return sample;
+}
+
+DistanceField::Sample DistanceField::interpolated(const Vec3 &x) const
+{
   const Vec3 place = (x - lo_) / spacing_;
   int cell[3];
   double w[3];
   for (int d = 0; d < 3; ++d) {
-    if (!(place[d] >= 0 && place[d] < nodes_[d] - 1)) return {reach_, Vec3::Zero()};
-    cell[d] = static_cast<int>(place[d]);
+    cell[d] = std::min(static_cast<int>(place[d]), nodes_[d] - 2);
     w[d] = place[d] - cell[d];
   }
   const std::size_t row = nodes_[0], layer = row * nodes_[1];

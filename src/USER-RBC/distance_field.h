@@ -18,7 +18,7 @@ class DistanceField {
   /// On a grid that holds all points nearer than `reach`.
   DistanceField(const SurfaceTemplate &surface, double reach);
 
-  /// Beyond the grid, `reach` without a gradient.
+  /// Beyond the grid not less than the distance, and not less than `reach`.
   Sample at(const Vec3 &x) const;
 
   double spacing() const { return spacing_; }
@@ -27,10 +27,12 @@ class DistanceField {
   double depth() const { return -*std::min_element(distance_.begin(), distance_.end()); }
 
  private:
-  double reach_, spacing_;
-  Vec3 lo_;
+  Vec3 lo_, hi_;
+  double spacing_;
   int nodes_[3];
   std::vector<float> distance_;
+
+  Sample interpolated(const Vec3 &x) const;
 };
 
 }    // namespace rbc

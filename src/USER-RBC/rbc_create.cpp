@@ -203,7 +203,7 @@ void RBCCreate::parse(int narg, char **arg)
   if (single && region) error->all(FLERR, "Rbc/create single takes no region");
   if (single && kinds.size() > 1) error->all(FLERR, "Rbc/create single takes no mix");
   if (single && speed > 0) error->all(FLERR, "Rbc/create single takes no velocity");
-  if (gap < 0) gap = kinds[0].shape->mean_edge / 5;
+  if (gap < 0) gap = kinds[0].shape->mean_edge / 10;
   check_images();
   if (single) return;
   set_extent();
