@@ -38,24 +38,24 @@ SCRIPT = """
     timestep   1
     run        0 post no\n"""
 
-# template, cells, hematocrit, between plates, ranks
-CASES = [("rbc_162", 512, hematocrit, plates, ranks) for hematocrit in (0.45, 0.50) for plates in (False, True)
+# template, cells, hematocrit, between plates, seed, ranks
+CASES = [("rbc_162", 512, hematocrit, plates, 4711, ranks) for hematocrit in (0.45, 0.50) for plates in (False, True)
          for ranks in (2, 1, 4)]
-CASES += [("rbc_642", 512, 0.45, False, 2), ("rbc_642", 512, 0.50, False, 2), ("rbc_162", 4096, 0.45, False, 2),
-          ("rbc_162", 4096, 0.45, True, 2)]
-PICTURE = ("rbc_162", 512, 0.45, True)
+CASES += [("rbc_162", 512, 0.50, False, seed, 2) for seed in range(1, 8)]
+CASES += [("rbc_642", 512, hematocrit, False, 4711, 2) for hematocrit in (0.45, 0.50)]
+CASES += [("rbc_162", 4096, 0.45, plates, 4711, 2) for plates in (False, True)]
+PICTURE = ("rbc_162", 512, 0.45, True, 4711)
 SAMPLES = 2000    # of isotropic directions
-SEED = 4711
 
 
-def pack(template, cells, hematocrit, plates, ranks):
+def pack(template, cells, hematocrit, plates, seed, ranks):
     points, triangles = read_template(POTENTIALS / f"{template}.mol")
     a, b, c = points[triangles].transpose(1, 0, 2)
     volume = cells * (a * np.cross(b, c)).sum() / 6 / hematocrit
     height = PLATES if plates else volume**(1 / 3)
     width = np.sqrt(volume / height)
     result = run(SCRIPT % {"boundary": "f" if plates else "p", "width": width, "height": height, "cells": cells,
-                           "potentials": POTENTIALS, "template": template, "seed": SEED,
+                           "potentials": POTENTIALS, "template": template, "seed": seed,
                            "dump": dump_line(1, columns="id xu yu zu").replace("\n", "\n    ")}, ranks, timeout=3600)
     places = result.dump().positions().reshape(cells, len(points), 3)
     return result, places, triangles, np.array([width, width, height])
@@ -88,7 +88,7 @@ def processor_time():
 
 
 def measure(case, reference):
-    template, cells, hematocrit, plates, ranks = case
+    template, cells, hematocrit, plates, seed, ranks = case
     load, spent = os.getloadavg()[0], processor_time()
     result, places, triangles, box = pack(*case)
     spent = processor_time() - spent
@@ -99,12 +99,12 @@ def measure(case, reference):
         axes = axes[from_plates > 2 * np.linalg.norm(places[0] - places[0].mean(axis=0), axis=1).max()]
     exceeded = np.mean([largest_order(isotropic_axes(random, len(axes))) >= largest_order(axes) for _ in range(SAMPLES)])
     same = ""
-    if case[:4] in reference:
-        same = "yes" if np.array_equal(reference[case[:4]], places) else "no"
+    if case[:5] in reference:
+        same = "yes" if np.array_equal(reference[case[:5]], places) else "no"
     else:
-        reference[case[:4]] = places
+        reference[case[:5]] = places
     row = {"template": template, "cells": cells, "hematocrit": hematocrit, "box": "plates" if plates else "periodic",
-           "ranks": ranks, "oversubscribed": "yes" if ranks > len(os.sched_getaffinity(0)) else "no",
+           "seed": seed, "ranks": ranks, "oversubscribed": "yes" if ranks > len(os.sched_getaffinity(0)) else "no",
            "run_time_s": float(re.search(r"rbc/create CPU = (\S+)", result.printed).group(1)),
            "processor_time_s": f"{spent:.2f}", "load_average": f"{load:.1f}",
            "attempts": int(re.search(r"Packed cells in (\d+)", result.printed).group(1)),
@@ -115,7 +115,7 @@ def measure(case, reference):
         gap = least_gap([(place, triangles) for place in places], box, (True, True, not plates), 0.2)
         row["least_gap_um"] = f"{gap:.5f}"
     print(*row.values(), sep=", ", flush=True)
-    if case[:4] == PICTURE and not same:
+    if case[:5] == PICTURE and not same:
         picture = ["--box", "0", f"{box[0]}", "0", f"{box[1]}", "0", f"{box[2]}", "--plates", "--view", "25", "22"]
         subprocess.run([sys.executable, HERE.parent / "scripts" / "render_cells.py", result.path("cells.0.vtp"), "-o",
                         HERE / "packing-cells.png", *picture], check=True)
@@ -127,7 +127,7 @@ def plot(directions):
     figure = Figure(figsize=(9, 3.2), layout="constrained")
     panels = figure.subplots(1, len(directions), sharey=True)
     grid = np.linspace(0, 1, 200)
-    for panel, ((_, _, hematocrit, plates), axes) in zip(panels, directions.items()):
+    for panel, ((_, _, hematocrit, plates, _), axes) in zip(panels, directions.items()):
         for d, name in enumerate("xyz"):
             panel.plot(np.sort(abs(axes[:, d])), (np.arange(len(axes)) + 0.5) / len(axes), label=name)
         band = 1.36 / np.sqrt(len(axes))    # Kolmogorov and Smirnov, 95 %
@@ -150,8 +150,8 @@ def main():
         for case in cases:
             row, axes = measure(case, reference)
             rows.append(row)
-            if case[0] == "rbc_162" and case[1] <= 512:
-                directions[case[:4]] = axes
+            if case[0] == "rbc_162" and case[1] <= 512 and case[4] == 4711:
+                directions[case[:5]] = axes
     if quick:
         return
     with open(HERE / "packing.csv", "w", newline="") as file:

@@ -4,6 +4,9 @@
 #include "point_bins.h"
 #include "surface_gap.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace rbc {
 
 namespace {
@@ -21,8 +24,8 @@ constexpr int shrinking_steps = 100;
 constexpr double time_step = 0.15;    // of unit masses on springs of unit stiffness at each vertex
 
 constexpr double first_fraction = 0.05;    // of the part that spheres about the cells fill at first
-constexpr double largest_first_size = 0.35;
-constexpr int draws_per_cell = 1000000;
+constexpr double largest_first_size = 0.35, least_first_size = 0.01, first_size_falls = 0.7;
+constexpr int draws = 1000000, most_collisions = 1000;    // of a cell
 
 }    // namespace
 
@@ -66,15 +69,6 @@ double CellPacking::uniform(double lo, double hi)
   return lo + (hi - lo) * std::ldexp(static_cast<double>(random_() >> 11), -53);
 }
 
-Vec3 CellPacking::random_direction()
-{
-  Vec3 x;
-  do
-    for (int d = 0; d < 3; ++d) x[d] = uniform(-1, 1);
-  while (x.squaredNorm() > 1 || x.squaredNorm() < 1e-4);
-  return x.normalized();
-}
-
 std::pair<int, int> CellPacking::share(std::size_t count) const
 {
   return {static_cast<int>(count * ranks_.me / ranks_.count),
@@ -95,21 +89,34 @@ bool CellPacking::place()
 {
   const double spheres = kinds_.size() * 4 * M_PI / 3 * radius_ * radius_ * radius_;
   size_ = std::min(largest_first_size, std::cbrt(first_fraction * part_length_.prod() / spheres));
+  for (; size_ > least_first_size; size_ *= first_size_falls)
+    if (place_spheres()) return true;
+  size_ = 0;
+  return false;
+}
+
+bool CellPacking::place_spheres()
+{
   const double apart = 2 * size_ * radius_;
   PointBins placed(box_, apart);
   for (const Vec3 &point : points_) placed.add(point);
   cells_.clear();
   turns_.clear();
+  anchors_.clear();
   for (const int kind : kinds_) {
     Vec3 centre;
     bool fits = false;
-    for (int draw = 0; draw < draws_per_cell && !fits; ++draw) {
+    int collisions = 0;
+    for (int draw = 0; draw < draws && collisions < most_collisions && !fits; ++draw) {
       for (int d = 0; d < 3; ++d) centre[d] = part_lo_[d] + uniform(0, 1) * part_length_[d];
-      fits = in_part(centre);
-      if (fits) placed.visit(centre, apart, [&](int, const Vec3 &) { fits = false; });
+      if (!in_part(centre)) continue;
+      fits = true;
+      placed.visit(centre, apart, [&](int, const Vec3 &) { fits = false; });
+      collisions += !fits;
     }
     if (!fits) return false;
     placed.add(centre);
+    anchors_.push_back(centre);
     const double u = uniform(0, 1), a = uniform(0, 2 * M_PI), b = uniform(0, 2 * M_PI);
     turns_.emplace_back(std::sqrt(u) * std::cos(b), std::sqrt(1 - u) * std::sin(a),
                         std::sqrt(1 - u) * std::cos(a), std::sqrt(u) * std::sin(b));
@@ -192,7 +199,7 @@ Push CellPacking::outer_push(const Single &single) const
       }
       if (!enclosure_) continue;
       const Vec3 beyond = x + size_ * margin_ * arm.normalized();
-      const auto excess = enclosure_->excess(cell.centre, beyond);
+      const auto excess = enclosure_->excess(anchors_[single.cell], beyond);
       if (excess.depth > 0)
         push.add(arm, excess.depth / size_ * excess.inward, excess.depth / size_);
     }
@@ -272,6 +279,7 @@ void CellPacking::move(const std::vector<double> &moves)
           (Eigen::Quaterniond(Eigen::AngleAxisd(angle, rotation / angle)) * turns_[c]).normalized();
     cell.turn = turns_[c].toRotationMatrix();
     moved_[c] += shift.norm() + cell.shape->radius * angle;
+    if (in_part(cell.centre)) anchors_[c] = cell.centre;
   }
 }
 

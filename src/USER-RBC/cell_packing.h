@@ -75,6 +75,7 @@ class CellPacking {
 
   std::vector<RigidCell> cells_;
   std::vector<Eigen::Quaterniond> turns_;
+  std::vector<Vec3> anchors_;    ///< last centre of each that was inside the enclosure
   double size_ = 0, radius_ = 0, growing_overlap_ = 0;
   double margin_ = 0;    ///< kept beyond the gap, for the errors of the distance fields
   double least_gap_ = 0;
@@ -87,8 +88,8 @@ class CellPacking {
   double grown_ = 0;
 
   double uniform(double lo, double hi);
-  Vec3 random_direction();
   bool place();
+  bool place_spheres();
   bool in_part(const Vec3 &x) const;
   void find_neighbours();
   bool neighbours_are_old() const;

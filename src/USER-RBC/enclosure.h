@@ -11,7 +11,7 @@ class Enclosure {
 
   virtual bool holds(const Vec3 &x) const = 0;
 
-  /// Unit normal, pointing inward, of the boundary next to a point inside.
+  /// Unit normal, pointing inward, of the boundary within `distance` of a point inside; 0 if it is not known.
   virtual Vec3 inward(const Vec3 &x, double distance) const = 0;
 
   struct Excess {
@@ -30,7 +30,8 @@ class Enclosure {
       (holds(from + middle * (x - from)) ? in : out) = middle;
     }
     const Vec3 last = from + in * (x - from);
-    const Vec3 normal = inward(last, 2 * (out - in) * (x - from).norm());
+    Vec3 normal = inward(last, 2 * (out - in) * (x - from).norm());
+    if (normal.isZero()) normal = (from - x).normalized();
     return {std::max(0.0, normal.dot(last - x)), normal};
   }
 };

@@ -2,6 +2,7 @@
 
 #include "surface_template.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -11,14 +12,6 @@ namespace rbc {
 struct PackingBox {
   Vec3 lo, length;
   std::array<bool, 3> periodic;
-
-  /// The image of x that lies in the box, where it is periodic.
-  Vec3 wrapped(Vec3 x) const
-  {
-    for (int d = 0; d < 3; ++d)
-      if (periodic[d]) x[d] -= length[d] * std::floor((x[d] - lo[d]) / length[d]);
-    return x;
-  }
 
   /// From the nearest wall, negative beyond it; infinite without walls.
   double clearance(const Vec3 &x) const

@@ -299,17 +299,17 @@ double RBCCreate::region_volume() const
 
 RBCCreate::Cell RBCCreate::place_single() const
 {
-  Cell cell{&kinds[0], {}};
-  for (const Vec3 &vertex : kinds[0].shape->vertices)
-    cell.vertices.push_back(centre + rotation * vertex);
+  Cell cell{&kinds[0], centre, rotation};
   const double *lower = domain->boxlo, *upper = domain->boxhi;
-  for (const Vec3 &vertex : cell.vertices)
+  for (int v = 0; v < kinds[0].shape->size(); ++v) {
+    const Vec3 vertex = cell.vertex(v);
     for (int d = 0; d < 3; ++d)
       if (!domain->periodicity[d] && (vertex[d] <= lower[d] || vertex[d] >= upper[d]))
         error->all(FLERR,
                    "Rbc/create single: a vertex at {} {:.6g} lies outside the simulation box, "
                    "{:.6g} to {:.6g}",
                    "xyz"[d], vertex[d], lower[d], upper[d]);
+  }
   return cell;
 }
 
@@ -355,11 +355,8 @@ std::vector<RBCCreate::Cell> RBCCreate::pack()
                    packing.steps_taken(), packing.least_gap());
 
   std::vector<Cell> cells;
-  for (std::size_t c = 0; c < kind_of.size(); ++c) {
-    cells.push_back({&kinds[kind_of[c]], {}});
-    for (int v = 0; v < cells[c].kind->shape->size(); ++v)
-      cells[c].vertices.push_back(packing.cells()[c].vertex(v));
-  }
+  for (std::size_t c = 0; c < kind_of.size(); ++c)
+    cells.push_back({&kinds[kind_of[c]], packing.cells()[c].centre, packing.cells()[c].turn});
   return cells;
 }
 
@@ -385,9 +382,10 @@ void RBCCreate::create_atoms(const std::vector<Cell> &cells)
     ++last[1];
     double velocity[3];
     for (double &component : velocity) component = speed * (2 * random.uniform() - 1);
-    for (const Vec3 &vertex : cell.vertices) {
+    for (int v = 0; v < cell.kind->shape->size(); ++v) {
       ++last[0];
-      double x[3] = {vertex[0], vertex[1], vertex[2]};
+      Vec3 vertex = cell.vertex(v);
+      double *x = vertex.data();
       imageint image = ((imageint)IMGMAX << IMG2BITS) | ((imageint)IMGMAX << IMGBITS) | IMGMAX;
       domain->remap(x, image);
       int place[3];

@@ -31,7 +31,10 @@ class RBCCreate : public Command {
   };
   struct Cell {
     const Kind *kind;
-    std::vector<rbc::Vec3> vertices;
+    rbc::Vec3 centre;
+    Eigen::Matrix3d turn;
+
+    rbc::Vec3 vertex(int v) const { return centre + turn * kind->shape->vertices[v]; }
   };
 
   std::vector<Kind> kinds;    // that of the template first, then those mixed in

@@ -154,15 +154,22 @@ class Random(unittest.TestCase):
         self.assertGreater(abs(self.axes(dump)[:, 2]).min(), 0.99)
 
     def test_region(self):
+        vessel = "\n".join(["region in cylinder x 12 10 9.5 0 10", "region out cylinder x 12 10 9.5 20 30",
+                            "region narrows cone x 12 10 9.5 6.5 10 15", "region widens cone x 12 10 6.5 9.5 15 20",
+                            "region throat union 2 narrows widens"])
         for region, hematocrit, inside, size in (
                 ("block 10 25 2 20 1 19", 0.3, lambda x: ((x >= (10, 2, 1)) & (x <= (25, 20, 19))).all(), 15 * 18 * 18),
                 ("cylinder z 15 12 9 0 20", 0.3, lambda x: (np.hypot(x[:, 0] - 15, x[:, 1] - 12) <= 9).all(),
                  np.pi * 81 * 20),
                 ("sphere 15 12 10 8 side out", 0.15,
                  lambda x: (np.linalg.norm((x - (15, 12, 10) + BOX / 2) % BOX - BOX / 2, axis=1) >= 8).all(),
-                 BOX.prod() - 4 / 3 * np.pi * 512)):
+                 BOX.prod() - 4 / 3 * np.pi * 512),
+                # a vessel with a throat
+                ("union 3 in out throat", 0.3,
+                 lambda x: (np.hypot(x[:, 1] - 12, x[:, 2] - 10) <= 9.5 - 3 * (1 - abs(x[:, 0] % 30 - 15) / 5).clip(0)
+                            + 1e-9).all(), np.pi * (9.5**2 * 20 + (9.5**2 + 6.5**2 + 9.5 * 6.5) / 3 * 10))):
             with self.subTest(region):
-                dump = created(f"region part {region}\nrbc/create rbc hematocrit {hematocrit} seed 5 region part", 2,
+                dump = created(f"{vessel}\nregion part {region}\nrbc/create rbc hematocrit {hematocrit} seed 5 region part", 2,
                                boundary="boundary p p p").dump()
                 number = len(dump("id")) // 162
                 self.assertAlmostEqual(number, hematocrit * size / volume(POINTS, TRIANGLES), delta=0.7)
