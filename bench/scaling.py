@@ -44,7 +44,7 @@ SUSPENSION = """
     create_box 1 box angle/types 1
     include    %(potentials)s/healthy.material
     molecule   rbc %(potentials)s/rbc_642.mol
-    rbc/create rbc number 27 seed 4711 region box attempts 20000
+    rbc/create rbc number 27 seed 4711 overlap 0.5
     neighbor   0.8 bin
     fix        membrane all rbc/membrane rbc mooney-rivlin ${C1} ${C2} ${h} &
                bending ${kappa} volume yes

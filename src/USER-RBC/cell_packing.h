@@ -1,99 +1,108 @@
 #pragma once
 
-#include "surface_template.h"
+#include "cell_approach.h"
+#include "enclosure.h"
+#include "packing_box.h"
+#include "rigid_cell.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <unordered_map>
+#include <functional>
+#include <memory>
+#include <random>
 #include <vector>
 
 namespace rbc {
 
-/// Vertices placed so far in a box, periodic where said, in bins of the least distance wanted between cells.
+/// Tasks that share work and all get the result.
+struct Ranks {
+  int me = 0, count = 1;
+
+  /// The numbers of all ranks, in their order.
+  std::function<std::vector<double>(const std::vector<double> &)> gather =
+      [](const std::vector<double> &mine) { return mine; };
+};
+
+/// Packs rigid cells at random, without overlap: small ones at random places and in random directions grow, and push
+/// each other aside where they touch. All ranks know all places; each finds its share of the forces, and these are
+/// summed in one order, so that the result does not depend on the number of ranks.
 class CellPacking {
  public:
-  CellPacking(const Vec3 &lo, const Vec3 &length, const std::array<bool, 3> &periodic, double gap) :
-      lo_(lo), length_(length), periodic_(periodic), gap_(gap)
-  {
-    for (int d = 0; d < 3; ++d) bins_[d] = std::max(1, static_cast<int>(length[d] / gap));
-  }
+  /// Cells of `kinds`, which number the templates.
+  CellPacking(const PackingBox &box, const std::vector<const SurfaceTemplate *> &templates,
+              std::vector<int> kinds, double gap, unsigned seed, Ranks ranks = {});
 
-  /// No vertex lies within the gap of one placed before, nor within half of it of a side that is not periodic.
-  bool fits(const std::vector<Vec3> &vertices) const
-  {
-    for (const Vec3 &vertex : vertices)
-      if (!clear_of_sides(vertex) || !clear_of_others(vertex)) return false;
-    return true;
-  }
+  /// Vertices stay in an enclosure, which lies in that part of the box.
+  void confine(const Enclosure &enclosure, const Vec3 &lo, const Vec3 &length);
 
-  void add(const std::vector<Vec3> &vertices)
-  {
-    for (const Vec3 &vertex : vertices) placed_[key(bin(vertex))].push_back(vertex);
-  }
+  /// Cells keep the gap from points, too.
+  void avoid(std::vector<Vec3> points);
+
+  /// Packs in that many steps at most. If it fails, cells are left that have shrunk until they fit.
+  bool pack(int steps);
+
+  const std::vector<RigidCell> &cells() const { return cells_; }
+
+  /// Size of the cells over that of their templates.
+  double size() const { return size_; }
+
+  /// Between surfaces, up to a little more than what was asked for.
+  double least_gap() const { return least_gap_; }
+
+  int steps_taken() const { return steps_taken_; }
 
  private:
-  using Bin = std::array<int, 3>;
+  struct Pair {
+    int a, b;
+    Vec3 image;    ///< shift of b
+  };
+  struct Contact {
+    int pair;
+    CellApproach a_to_b, b_to_a;
+  };
+  struct Single {
+    int cell;
+    std::vector<Vec3> points;
+  };
 
-  Bin bin(const Vec3 &x) const
-  {
-    Bin bin;
-    for (int d = 0; d < 3; ++d) {
-      const int b = static_cast<int>(std::floor((x[d] - lo_[d]) / length_[d] * bins_[d]));
-      bin[d] = periodic_[d] ? (b % bins_[d] + bins_[d]) % bins_[d]
-                            : std::min(std::max(b, 0), bins_[d] - 1);
-    }
-    return bin;
-  }
-
-  long key(const Bin &bin) const
-  {
-    return bin[0] + long(bins_[0]) * (bin[1] + long(bins_[1]) * bin[2]);
-  }
-
-  bool clear_of_sides(const Vec3 &x) const
-  {
-    for (int d = 0; d < 3; ++d)
-      if (!periodic_[d] && (x[d] < lo_[d] + gap_ / 2 || x[d] > lo_[d] + length_[d] - gap_ / 2))
-        return false;
-    return true;
-  }
-
-  bool clear_of_others(const Vec3 &x) const
-  {
-    const Bin home = bin(x);
-    for (int dz = -1; dz <= 1; ++dz)
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx) {
-          Bin near{home[0] + dx, home[1] + dy, home[2] + dz};
-          bool outside = false;
-          for (int d = 0; d < 3; ++d) {
-            if (periodic_[d])
-              near[d] = (near[d] + bins_[d]) % bins_[d];
-            else
-              outside = outside || near[d] < 0 || near[d] >= bins_[d];
-          }
-          if (outside) continue;
-          const auto found = placed_.find(key(near));
-          if (found == placed_.end()) continue;
-          for (const Vec3 &other : found->second)
-            if (nearest(x - other).squaredNorm() < gap_ * gap_) return false;
-        }
-    return true;
-  }
-
-  Vec3 nearest(Vec3 separation) const
-  {
-    for (int d = 0; d < 3; ++d)
-      if (periodic_[d]) separation[d] -= length_[d] * std::round(separation[d] / length_[d]);
-    return separation;
-  }
-
-  Vec3 lo_, length_;
-  std::array<bool, 3> periodic_;
+  PackingBox box_;
+  std::vector<std::unique_ptr<RigidShape>> shapes_;
+  std::vector<int> kinds_;
   double gap_;
-  Bin bins_;
-  std::unordered_map<long, std::vector<Vec3>> placed_;
+  Ranks ranks_;
+  std::mt19937_64 random_;
+  const Enclosure *enclosure_ = nullptr;
+  Vec3 part_lo_, part_length_;
+  std::vector<Vec3> points_;
+
+  std::vector<RigidCell> cells_;
+  std::vector<Eigen::Quaterniond> turns_;
+  std::vector<Vec3> anchors_;    ///< last centre of each that was inside the enclosure
+  double size_ = 0, radius_ = 0, growing_overlap_ = 0;
+  double margin_ = 0;    ///< kept beyond the gap, for the errors of the distance fields
+  double least_gap_ = 0;
+  int steps_taken_ = 0;
+
+  std::vector<Pair> pairs_;
+  std::vector<Contact> contacts_;    ///< of this rank's share of the pairs
+  std::vector<Single> singles_;      ///< this rank's share of the cells, and the points near each
+  std::vector<double> moved_;        ///< of any vertex of a cell since these were found
+  double grown_ = 0;
+
+  double uniform(double lo, double hi);
+  bool place();
+  bool place_spheres();
+  bool in_part(const Vec3 &x) const;
+  void find_neighbours();
+  bool neighbours_are_old() const;
+  std::vector<Push> pushes();
+  Push outer_push(const Single &single) const;
+  void move(const std::vector<double> &moves);
+  void resize(double size);
+  bool settle(int steps, bool growing);
+  bool check();
+  double clearance() const { return gap_ + margin_; }
+  double reach() const;
+  RigidCell shifted(const Pair &pair) const;
+  std::pair<int, int> share(std::size_t count) const;
 };
 
 }    // namespace rbc

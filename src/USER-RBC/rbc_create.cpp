@@ -18,14 +18,50 @@ using rbc::Vec3;
 
 namespace {
 
-/// Uniformly distributed over all rotations (Shoemake, Graphics Gems III, 1992).
-Eigen::Matrix3d random_rotation(RanPark &random)
+class RegionEnclosure : public rbc::Enclosure {
+ public:
+  RegionEnclosure(Region *region, Domain *domain) : region_(region), domain_(domain) {}
+
+  bool holds(const Vec3 &x) const override
+  {
+    const Vec3 y = wrapped(x);
+    return region_->match(y[0], y[1], y[2]);
+  }
+
+  Vec3 inward(const Vec3 &x, double distance) const override
+  {
+    const Vec3 y = wrapped(x);
+    Vec3 normal = Vec3::Zero();
+    for (int n = region_->surface(y[0], y[1], y[2], distance); n-- > 0;) {
+      const Region::Contact &contact = region_->contact[n];
+      const Vec3 from_surface(contact.delx, contact.dely, contact.delz);
+      if (from_surface.norm() > 0) normal += from_surface.normalized();
+    }
+    return normal.norm() > 0 ? normal.normalized() : normal;
+  }
+
+ private:
+  Region *region_;
+  Domain *domain_;
+
+  Vec3 wrapped(Vec3 x) const
+  {
+    domain_->remap(x.data());
+    return x;
+  }
+};
+
+/// Numbers of all tasks, in their order.
+std::vector<double> gather(const std::vector<double> &mine, const Comm *comm, MPI_Comm world)
 {
-  const double u = random.uniform(), a = MathConst::MY_2PI * random.uniform(),
-               b = MathConst::MY_2PI * random.uniform();
-  return Eigen::Quaterniond(std::sqrt(u) * std::cos(b), std::sqrt(1 - u) * std::sin(a),
-                            std::sqrt(1 - u) * std::cos(a), std::sqrt(u) * std::sin(b))
-      .toRotationMatrix();
+  std::vector<int> counts(comm->nprocs), begins(comm->nprocs);
+  const int count = static_cast<int>(mine.size());
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+  for (int r = 1; r < comm->nprocs; ++r) begins[r] = begins[r - 1] + counts[r - 1];
+  std::vector<double> all(begins.back() + counts.back());
+  MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), begins.data(),
+                 MPI_DOUBLE, world);
+  return all;
 }
 
 }    // namespace
@@ -41,23 +77,17 @@ void RBCCreate::command(int narg, char **arg)
   if (domain->triclinic) error->all(FLERR, "Rbc/create requires an orthogonal simulation box");
   parse(narg, arg);
 
-  std::vector<Vertices> cells;
-  if (single) {
-    cells.emplace_back();
-    for (const Vec3 &vertex : shape->vertices) cells[0].push_back(centre + rotation * vertex);
-    const double *lower = domain->boxlo, *upper = domain->boxhi;
-    for (const Vec3 &vertex : cells[0])
-      for (int d = 0; d < 3; ++d)
-        if (!domain->periodicity[d] && (vertex[d] <= lower[d] || vertex[d] >= upper[d]))
-          error->all(FLERR,
-                     "Rbc/create single: a vertex at {} {:.6g} lies outside the simulation box, "
-                     "{:.6g} to {:.6g}",
-                     "xyz"[d], vertex[d], lower[d], upper[d]);
-  } else
-    cells = place_randomly();
+  const double begin = platform::walltime();
+  std::vector<Cell> cells;
+  if (single)
+    cells.push_back(place_single());
+  else
+    cells = pack();
   create_atoms(cells);
-  if (comm->me == 0)
-    utils::logmesg(lmp, "Created {} cells of {} vertices\n", cells.size(), shape->size());
+  if (comm->me != 0) return;
+  for (const Kind &kind : kinds)
+    utils::logmesg(lmp, "Created {} cells of {} vertices\n", kind.count, kind.shape->size());
+  utils::logmesg(lmp, "  rbc/create CPU = {:.3f} seconds\n", platform::walltime() - begin);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -65,14 +95,19 @@ void RBCCreate::command(int narg, char **arg)
 void RBCCreate::parse(int narg, char **arg)
 {
   if (narg < 3) utils::missing_cmd_args(FLERR, "rbc/create", error);
-  template_id = arg[0];
-  shape = make_cell_template(lmp, template_id, "rbc/create");
+  kinds.push_back({arg[0], make_cell_template(lmp, arg[0], "rbc/create"), 1, 1, 1});
 
   int iarg = 1;
   const auto need = [&](int n, const std::string &keyword) {
     if (iarg + n >= narg) utils::missing_cmd_args(FLERR, "rbc/create " + keyword, error);
   };
   const auto number = [&](int at) { return utils::numeric(FLERR, arg[at], false, lmp); };
+  const auto atom_type = [&](int at) {
+    const int type = utils::inumeric(FLERR, arg[at], false, lmp);
+    if (type < 1 || type > atom->ntypes)
+      error->all(FLERR, at, "Rbc/create type {} must be between 1 and {}", type, atom->ntypes);
+    return type;
+  };
   bool placement = false, seeded = false;
   while (iarg < narg) {
     const std::string keyword = arg[iarg];
@@ -124,11 +159,22 @@ void RBCCreate::parse(int narg, char **arg)
       iarg += 2;
     } else if (keyword == "type") {
       need(1, keyword);
-      type = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
-      if (type < 1 || type > atom->ntypes)
-        error->all(FLERR, iarg + 1, "Rbc/create type {} must be between 1 and {}", type,
-                   atom->ntypes);
+      kinds[0].type = atom_type(iarg + 1);
       iarg += 2;
+    } else if (keyword == "mix") {
+      need(3, keyword);
+      const double fraction = number(iarg + 2);
+      if (!(fraction > 0 && fraction < 1))
+        error->all(FLERR, iarg + 2, "Rbc/create mix fraction {} must be between 0 and 1",
+                   arg[iarg + 2]);
+      kinds.push_back({arg[iarg + 1], make_cell_template(lmp, arg[iarg + 1], "rbc/create mix"),
+                       fraction, atom_type(iarg + 3), 0});
+      kinds[0].fraction -= fraction;
+      if (kinds[0].fraction < 1e-9)
+        error->all(FLERR, iarg + 2,
+                   "Rbc/create mix fractions must add up to less than 1, not {:.6g}",
+                   1 - kinds[0].fraction);
+      iarg += 4;
     } else if (keyword == "overlap") {
       need(1, keyword);
       gap = number(iarg + 1);
@@ -140,26 +186,60 @@ void RBCCreate::parse(int narg, char **arg)
       attempts = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
       if (attempts < 1) error->all(FLERR, iarg + 1, "Rbc/create attempts {} must be > 0", attempts);
       iarg += 2;
+    } else if (keyword == "velocity") {
+      need(1, keyword);
+      speed = number(iarg + 1);
+      if (!(speed >= 0))
+        error->all(FLERR, iarg + 1, "Rbc/create velocity {} must be >= 0", arg[iarg + 1]);
+      iarg += 2;
     } else
       error->all(FLERR, iarg,
-                 "Unknown rbc/create keyword {}; allowed: single, rotate, number, hematocrit, "
-                 "region, seed, type, "
-                 "overlap, attempts",
+                 "Unknown rbc/create keyword {}; allowed: single, rotate, number, hematocrit, mix, "
+                 "region, seed, type, overlap, attempts, velocity",
                  keyword);
   }
   if (!placement) error->all(FLERR, "Rbc/create needs one of single, number and hematocrit");
   if (!single && !seeded) error->all(FLERR, "Rbc/create number and hematocrit need a seed");
   if (single && region) error->all(FLERR, "Rbc/create single takes no region");
-  if (gap < 0) gap = shape->mean_edge;
+  if (single && kinds.size() > 1) error->all(FLERR, "Rbc/create single takes no mix");
+  if (single && speed > 0) error->all(FLERR, "Rbc/create single takes no velocity");
+  if (gap < 0) gap = kinds[0].shape->mean_edge / 10;
   check_images();
-  if (type == 0) type = 1;
+  if (single) return;
   set_extent();
+  set_counts();
+}
+
+/* ----------------------------------------------------------------------
+   of each kind, with fractions as near as whole numbers allow
+------------------------------------------------------------------------- */
+
+void RBCCreate::set_counts()
+{
   if (hematocrit > 0) {
-    wanted = static_cast<int>(std::lround(hematocrit * region_volume() / shape->volume));
-    if (wanted < 1)
+    const double count = std::round(hematocrit * region_volume() / mean_cell_volume());
+    if (count < 1)
       error->all(FLERR, "Rbc/create hematocrit {} is less than one cell in the volume of {:.6g}",
                  hematocrit, region_volume());
+    if (count > MAXSMALLINT)
+      error->all(FLERR, "Rbc/create hematocrit {} is {:.6g} cells: too many", hematocrit, count);
+    wanted = static_cast<int>(count);
   }
+  double fraction = 0;
+  int before = 0;
+  for (Kind &kind : kinds) {
+    fraction += kind.fraction;
+    const int here = static_cast<int>(std::lround(fraction * wanted));
+    kind.count = here - before;
+    before = here;
+  }
+}
+
+double RBCCreate::mean_cell_volume() const
+{
+  double volume = 0;
+  for (const Kind &kind : kinds) volume += kind.fraction * kind.shape->volume;
+  return volume;
 }
 
 /* ----------------------------------------------------------------------
@@ -168,14 +248,16 @@ void RBCCreate::parse(int narg, char **arg)
 
 void RBCCreate::check_images() const
 {
-  double radius = 0;
-  for (const Vec3 &vertex : shape->vertices) radius = std::max(radius, vertex.norm());
-  for (int d = 0; d < 3; ++d)
-    if (domain->periodicity[d] && domain->prd[d] < 2 * radius + gap)
-      error->all(
-          FLERR,
-          "Rbc/create: the periodic box is {:.6g} long in {}; cells of {} need at least {:.6g}",
-          domain->prd[d], "xyz"[d], template_id, 2 * radius + gap);
+  for (const Kind &kind : kinds) {
+    double radius = 0;
+    for (const Vec3 &vertex : kind.shape->vertices) radius = std::max(radius, vertex.norm());
+    for (int d = 0; d < 3; ++d)
+      if (domain->periodicity[d] && domain->prd[d] < 2 * radius + gap)
+        error->all(
+            FLERR,
+            "Rbc/create: the periodic box is {:.6g} long in {}; cells of {} need at least {:.6g}",
+            domain->prd[d], "xyz"[d], kind.id, 2 * radius + gap);
+  }
 }
 
 /* ----------------------------------------------------------------------
@@ -213,59 +295,68 @@ double RBCCreate::region_volume() const
   return length.prod() * inside / (double(n) * n * n);
 }
 
-/* ----------------------------------------------------------------------
-   random sequential placement, the same on all ranks
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
-std::vector<RBCCreate::Vertices> RBCCreate::place_randomly()
+RBCCreate::Cell RBCCreate::place_single() const
 {
-  rbc::CellPacking packing(Vec3(domain->boxlo), Vec3(domain->prd),
-                           {domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0},
-                           gap);
-
-  std::vector<int> counts(comm->nprocs), begins(comm->nprocs);
-  const int mine = 3 * atom->nlocal;
-  MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
-  for (int r = 1; r < comm->nprocs; ++r) begins[r] = begins[r - 1] + counts[r - 1];
-  std::vector<double> present(begins.back() + counts.back());
-  MPI_Allgatherv(mine ? atom->x[0] : nullptr, mine, MPI_DOUBLE, present.data(), counts.data(),
-                 begins.data(), MPI_DOUBLE, world);
-  Vertices others;
-  for (std::size_t i = 0; i < present.size(); i += 3) others.emplace_back(&present[i]);
-  packing.add(others);
-
-  const auto in_region = [&](const Vertices &vertices) {
-    if (!region) return true;
-    for (const Vec3 &vertex : vertices) {
-      double x[3] = {vertex[0], vertex[1], vertex[2]};
-      domain->remap(x);
-      if (!region->match(x[0], x[1], x[2])) return false;
-    }
-    return true;
-  };
-
-  RanPark random(lmp, seed);
-  std::vector<Vertices> cells;
-  for (int tries = 0; static_cast<int>(cells.size()) < wanted; ++tries) {
-    if (tries == attempts)
-      error->all(FLERR,
-                 "Rbc/create could place only {} of {} cells without overlap after {} attempts for "
-                 "the next one; the "
-                 "densest reached is a volume fraction of {:.4g} of {:.4g} wanted; use fewer "
-                 "cells, a smaller overlap "
-                 "distance or more attempts",
-                 cells.size(), wanted, attempts, cells.size() * shape->volume / region_volume(),
-                 wanted * shape->volume / region_volume());
-    Vec3 where;
-    for (int d = 0; d < 3; ++d) where[d] = lo[d] + random.uniform() * length[d];
-    const Eigen::Matrix3d turn = random_rotation(random);
-    Vertices candidate;
-    for (const Vec3 &vertex : shape->vertices) candidate.push_back(where + turn * vertex);
-    if (!in_region(candidate) || !packing.fits(candidate)) continue;
-    packing.add(candidate);
-    cells.push_back(std::move(candidate));
-    tries = -1;
+  Cell cell{&kinds[0], centre, rotation};
+  const double *lower = domain->boxlo, *upper = domain->boxhi;
+  for (int v = 0; v < kinds[0].shape->size(); ++v) {
+    const Vec3 vertex = cell.vertex(v);
+    for (int d = 0; d < 3; ++d)
+      if (!domain->periodicity[d] && (vertex[d] <= lower[d] || vertex[d] >= upper[d]))
+        error->all(FLERR,
+                   "Rbc/create single: a vertex at {} {:.6g} lies outside the simulation box, "
+                   "{:.6g} to {:.6g}",
+                   "xyz"[d], vertex[d], lower[d], upper[d]);
   }
+  return cell;
+}
+
+std::vector<Vec3> RBCCreate::existing_atoms() const
+{
+  std::vector<double> mine;
+  for (int i = 0; i < atom->nlocal; ++i) mine.insert(mine.end(), atom->x[i], atom->x[i] + 3);
+  const std::vector<double> all = gather(mine, comm, world);
+  std::vector<Vec3> places;
+  for (std::size_t i = 0; i < all.size(); i += 3) places.emplace_back(&all[i]);
+  return places;
+}
+
+std::vector<RBCCreate::Cell> RBCCreate::pack()
+{
+  const rbc::PackingBox box{
+      Vec3(domain->boxlo),
+      Vec3(domain->prd),
+      {domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0}};
+  std::vector<const rbc::SurfaceTemplate *> templates;
+  std::vector<int> kind_of;
+  for (const Kind &kind : kinds) {
+    kind_of.insert(kind_of.end(), kind.count, static_cast<int>(templates.size()));
+    templates.push_back(kind.shape.get());
+  }
+  const auto share = [this](const std::vector<double> &mine) { return gather(mine, comm, world); };
+  rbc::CellPacking packing(box, templates, kind_of, gap, seed, {comm->me, comm->nprocs, share});
+  packing.avoid(existing_atoms());
+  const RegionEnclosure enclosure(region, domain);
+  if (region) packing.confine(enclosure, lo, length);
+
+  if (!packing.pack(attempts)) {
+    const double fraction = wanted * mean_cell_volume() / region_volume();
+    error->all(
+        FLERR,
+        "Rbc/create could not pack {} cells without overlap in {} attempts; the densest "
+        "reached is a volume fraction of {:.4g} of {:.4g} wanted; use fewer cells, a smaller "
+        "overlap distance or more attempts",
+        wanted, attempts, fraction * std::pow(packing.size(), 3), fraction);
+  }
+  if (comm->me == 0)
+    utils::logmesg(lmp, "Packed cells in {} attempts; least distance of surfaces {:.6g}\n",
+                   packing.steps_taken(), packing.least_gap());
+
+  std::vector<Cell> cells;
+  for (std::size_t c = 0; c < kind_of.size(); ++c)
+    cells.push_back({&kinds[kind_of[c]], packing.cells()[c].centre, packing.cells()[c].turn});
   return cells;
 }
 
@@ -273,7 +364,7 @@ std::vector<RBCCreate::Vertices> RBCCreate::place_randomly()
    consecutive atom IDs and one molecule ID for each cell; every rank creates the atoms it owns
 ------------------------------------------------------------------------- */
 
-void RBCCreate::create_atoms(const std::vector<Vertices> &cells)
+void RBCCreate::create_atoms(const std::vector<Cell> &cells)
 {
   tagint last[2] = {0, 0};
   for (int i = 0; i < atom->nlocal; ++i) {
@@ -281,23 +372,32 @@ void RBCCreate::create_atoms(const std::vector<Vertices> &cells)
     last[1] = std::max(last[1], atom->molecule[i]);
   }
   MPI_Allreduce(MPI_IN_PLACE, last, 2, MPI_LMP_TAGINT, MPI_MAX, world);
-  if (last[0] + static_cast<bigint>(cells.size()) * shape->size() > MAXTAGINT)
-    error->all(FLERR, "Rbc/create: too many atoms for atom IDs");
+  bigint vertices = 0;
+  for (const Cell &cell : cells) vertices += cell.kind->shape->size();
+  if (last[0] + vertices > MAXTAGINT) error->all(FLERR, "Rbc/create: too many atoms for atom IDs");
 
+  RanPark random(lmp, std::max(seed, 1));
   const int nlocal_previous = atom->nlocal;
-  for (std::size_t c = 0; c < cells.size(); ++c)
-    for (int v = 0; v < shape->size(); ++v) {
-      double x[3] = {cells[c][v][0], cells[c][v][1], cells[c][v][2]};
+  for (const Cell &cell : cells) {
+    ++last[1];
+    double velocity[3];
+    for (double &component : velocity) component = speed * (2 * random.uniform() - 1);
+    for (int v = 0; v < cell.kind->shape->size(); ++v) {
+      ++last[0];
+      Vec3 vertex = cell.vertex(v);
+      double *x = vertex.data();
       imageint image = ((imageint)IMGMAX << IMG2BITS) | ((imageint)IMGMAX << IMGBITS) | IMGMAX;
       domain->remap(x, image);
       int place[3];
       if (comm->coord2proc(x, place[0], place[1], place[2]) != comm->me) continue;
-      atom->avec->create_atom(type, x);
+      atom->avec->create_atom(cell.kind->type, x);
       const int i = atom->nlocal - 1;
-      atom->tag[i] = last[0] + static_cast<tagint>(c) * shape->size() + v + 1;
-      atom->molecule[i] = last[1] + static_cast<tagint>(c) + 1;
+      atom->tag[i] = last[0];
+      atom->molecule[i] = last[1];
       atom->image[i] = image;
+      std::copy(velocity, velocity + 3, atom->v[i]);
     }
+  }
   atom->data_fix_compute_variable(nlocal_previous, atom->nlocal);
 
   bigint nlocal = atom->nlocal;
@@ -310,9 +410,10 @@ void RBCCreate::create_atoms(const std::vector<Vertices> &cells)
 
   // LAMMPS wants a mass; fix rbc/ib uses it with scheme direct only
 
-  if (atom->mass && !atom->mass_setflag[type]) {
-    atom->set_mass(FLERR, type, 1.0);
+  for (const Kind &kind : kinds) {
+    if (!atom->mass || atom->mass_setflag[kind.type]) continue;
+    atom->set_mass(FLERR, kind.type, 1.0);
     if (comm->me == 0)
-      utils::logmesg(lmp, "Mass of atom type {} set to 1.0, for it has not been set\n", type);
+      utils::logmesg(lmp, "Mass of atom type {} set to 1.0, for it has not been set\n", kind.type);
   }
 }

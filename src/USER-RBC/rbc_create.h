@@ -22,10 +22,22 @@ class RBCCreate : public Command {
   void command(int, char **) override;
 
  private:
-  using Vertices = std::vector<rbc::Vec3>;
+  struct Kind {
+    std::string id;
+    std::unique_ptr<rbc::SurfaceTemplate> shape;
+    double fraction;
+    int type;
+    int count;
+  };
+  struct Cell {
+    const Kind *kind;
+    rbc::Vec3 centre;
+    Eigen::Matrix3d turn;
 
-  std::string template_id;
-  std::unique_ptr<rbc::SurfaceTemplate> shape;
+    rbc::Vec3 vertex(int v) const { return centre + turn * kind->shape->vertices[v]; }
+  };
+
+  std::vector<Kind> kinds;    // that of the template first, then those mixed in
 
   bool single = false;
   rbc::Vec3 centre = rbc::Vec3::Zero();
@@ -35,16 +47,20 @@ class RBCCreate : public Command {
   class Region *region = nullptr;
   rbc::Vec3 lo = rbc::Vec3::Zero(), length = rbc::Vec3::Zero();    // where cells may lie
   int seed = 0;
-  int type = 0;
   double gap = -1;
-  int attempts = 1000;
+  int attempts = 3000;
+  double speed = 0;
 
   void parse(int, char **);
-  std::vector<Vertices> place_randomly();
+  Cell place_single() const;
+  std::vector<Cell> pack();
+  std::vector<rbc::Vec3> existing_atoms() const;
   void check_images() const;
   void set_extent();
+  void set_counts();
+  double mean_cell_volume() const;
   double region_volume() const;
-  void create_atoms(const std::vector<Vertices> &);
+  void create_atoms(const std::vector<Cell> &);
 };
 
 }    // namespace LAMMPS_NS

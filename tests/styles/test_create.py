@@ -1,10 +1,12 @@
 """rbc/create: where cells come to lie, and how they are numbered."""
 
 import unittest
+from pathlib import Path
 
 import numpy as np
 
-from lammps_case import POTENTIALS, dump_line, read_template, run, scene
+from lammps_case import POTENTIALS, dump_line, make_template, read_template, run, scene
+from surfaces import least_gap
 
 COLUMNS = "id mol type x y z xu yu zu"
 CAPSULE = f"molecule capsule {POTENTIALS}/capsule_162.mol"
@@ -34,17 +36,16 @@ def rotation(degrees, axis):
     return np.eye(3) + np.sin(a) * cross + (1 - np.cos(a)) * cross @ cross
 
 
-def least_distance(positions, molecules, periodic=(True, True, False)):
-    """Between vertices of different cells."""
-    least = np.inf
-    for cell in np.unique(molecules)[:-1]:
-        own, others = positions[molecules == cell], positions[molecules > cell]
-        apart = own[:, None] - others[None]
-        for d in range(3):
-            if periodic[d]:
-                apart[..., d] -= BOX[d] * np.round(apart[..., d] / BOX[d])
-        least = min(least, np.linalg.norm(apart, axis=2).min())
-    return least
+def order(axes):
+    """Largest eigenvalue of the mean of (3 n n - 1) / 2: 0 for isotropic directions, 1 for one direction."""
+    return abs(np.linalg.eigvalsh(1.5 * axes.T @ axes / len(axes) - 0.5 * np.eye(3))).max()
+
+
+def order_of_isotropic(count, share, samples=2000):
+    """Quantile for independent isotropic directions."""
+    directions = np.random.default_rng(1).normal(size=(samples, count, 3))
+    directions /= np.linalg.norm(directions, axis=2, keepdims=True)
+    return np.quantile([order(axes) for axes in directions], share)
 
 
 POINTS, TRIANGLES = read_template(POTENTIALS / "rbc_162.mol")
@@ -94,7 +95,7 @@ class Single(unittest.TestCase):
 
 
 class Random(unittest.TestCase):
-    def check_cells(self, dump, number, overlap, periodic=(True, True, False)):
+    def check_cells(self, dump, number, overlap, periodic=(True, True, False), box=BOX):
         self.assertEqual(len(dump("id")), number * 162)
         np.testing.assert_array_equal(dump("mol"), np.repeat(np.arange(1, number + 1), 162))
         x = dump.positions().reshape(number, 162, 3)
@@ -103,51 +104,76 @@ class Random(unittest.TestCase):
             np.testing.assert_allclose(np.linalg.norm(cell - cell[0], axis=1),
                                        np.linalg.norm(POINTS - POINTS[0], axis=1),
                                        atol=1e-12)
-        self.assertGreaterEqual(least_distance(dump.positions(), dump("mol"), periodic), overlap)
+        self.assertGreaterEqual(least_gap([(cell, TRIANGLES) for cell in x], box, periodic, 2 * overlap), overlap)
         for d in range(3):
             if not periodic[d]:
                 self.assertGreaterEqual(dump.positions()[:, d].min(), overlap / 2)
-                self.assertLessEqual(dump.positions()[:, d].max(), BOX[d] - overlap / 2)
+                self.assertLessEqual(dump.positions()[:, d].max(), box[d] - overlap / 2)
+
+    def axes(self, dump):
+        x = dump.positions().reshape(-1, 162, 3)
+        x = x - x.mean(axis=1, keepdims=True)
+        return np.array([np.linalg.eigh(cell.T @ cell)[1][:, 0] for cell in x])
 
     def test_number_is_the_same_on_any_ranks(self):
-        dumps = [created("rbc/create rbc number 14 seed 4711", ranks).dump() for ranks in (1, 4)]
-        self.check_cells(dumps[0], 14, mean_edge(POINTS, TRIANGLES))
-        np.testing.assert_array_equal(dumps[0].positions(), dumps[1].positions())
-        np.testing.assert_array_equal(dumps[0]("mol"), dumps[1]("mol"))
+        cells = "rbc/create rbc number 40 seed 4711"
+        dumps = [created(cells, ranks).dump() for ranks in (1, 2, 4)]
+        self.check_cells(dumps[0], 40, mean_edge(POINTS, TRIANGLES) / 10)
+        for dump in dumps[1:]:
+            np.testing.assert_array_equal(dump.positions(), dumps[0].positions())
+            np.testing.assert_array_equal(dump("mol"), dumps[0]("mol"))
 
     def test_hematocrit(self):
-        for hematocrit in (0.1, 0.2):
+        for hematocrit, overlap in ((0.2, 0.5), (0.45, 0.1)):
             number = round(hematocrit * BOX.prod() / volume(POINTS, TRIANGLES))
             for periodic, boundary in (((True, True, False), "p p f"), ((True,) * 3, "p p p")):
                 with self.subTest(hematocrit, boundary=boundary):
-                    dump = created(f"rbc/create rbc hematocrit {hematocrit} seed 1 overlap 0.3 attempts 100000",
+                    dump = created(f"rbc/create rbc hematocrit {hematocrit} seed 1 overlap {overlap}", 2,
                                    boundary=f"boundary {boundary}").dump()
-                    self.check_cells(dump, number, 0.3, periodic)
+                    self.check_cells(dump, number, overlap, periodic)
+
+    def test_half_of_a_box_is_cells_in_any_direction(self):
+        box = np.array([28.0, 26.0, 25.0])
+        dump = created("rbc/create rbc hematocrit 0.5 seed 2", 2, boundary="boundary p p p",
+                       box="region box block 0 28 0 26 0 25").dump()
+        number = round(0.5 * box.prod() / volume(POINTS, TRIANGLES))
+        self.check_cells(dump, number, mean_edge(POINTS, TRIANGLES) / 10, (True,) * 3, box)
+        self.assertLess(order(self.axes(dump)), order_of_isotropic(number, 0.999))
 
     def test_seeds_differ(self):
         a, b = (created(f"rbc/create rbc number 2 seed {seed}").dump().positions() for seed in (1, 2))
         self.assertGreater(abs(a - b).max(), 1)
 
     def test_directions_are_random(self):
-        # the mean of n n^T over directions n of the axis of the disc is 1/3
-        dump = created("rbc/create rbc number 300 seed 3 overlap 0.01 attempts 1000",
-                       box="region box block 0 300 0 300 0 300").dump()
-        x = dump.positions().reshape(300, 162, 3)
-        x = x - x.mean(axis=1, keepdims=True)
-        axes = np.array([np.linalg.eigh(cell.T @ cell)[1][:, 0] for cell in x])
-        self.assertLess(abs(axes.T @ axes / 300 - np.eye(3) / 3).max(), 0.08)
+        dump = created("rbc/create rbc number 300 seed 3 overlap 0.01", box="region box block 0 300 0 300 0 300").dump()
+        self.assertLess(order(self.axes(dump)), order_of_isotropic(300, 0.999))
+
+    def test_the_only_layer_between_near_plates_lies_flat(self):
+        dump = created("rbc/create rbc number 4 seed 3", box="region box block 0 30 0 24 0 2.8").dump()
+        self.check_cells(dump, 4, mean_edge(POINTS, TRIANGLES) / 10, box=np.array([30, 24, 2.8]))
+        self.assertGreater(abs(self.axes(dump)[:, 2]).min(), 0.99)
 
     def test_region(self):
-        for region, inside, size in (
-                ("block 10 25 2 20 1 19", lambda x: ((x >= (10, 2, 1)) & (x <= (25, 20, 19))).all(), 15 * 18 * 18),
-                ("cylinder z 15 12 9 0 20", lambda x: (np.hypot(x[:, 0] - 15, x[:, 1] - 12) <= 9).all(),
-                 np.pi * 81 * 20)):
+        vessel = "\n".join(["region in cylinder x 12 10 9.5 0 10", "region out cylinder x 12 10 9.5 20 30",
+                            "region narrows cone x 12 10 9.5 6.5 10 15", "region widens cone x 12 10 6.5 9.5 15 20",
+                            "region throat union 2 narrows widens"])
+        for region, hematocrit, inside, size in (
+                ("block 10 25 2 20 1 19", 0.3, lambda x: ((x >= (10, 2, 1)) & (x <= (25, 20, 19))).all(), 15 * 18 * 18),
+                ("cylinder z 15 12 9 0 20", 0.3, lambda x: (np.hypot(x[:, 0] - 15, x[:, 1] - 12) <= 9).all(),
+                 np.pi * 81 * 20),
+                ("sphere 15 12 10 8 side out", 0.15,
+                 lambda x: (np.linalg.norm((x - (15, 12, 10) + BOX / 2) % BOX - BOX / 2, axis=1) >= 8).all(),
+                 BOX.prod() - 4 / 3 * np.pi * 512),
+                # a vessel with a throat
+                ("union 3 in out throat", 0.3,
+                 lambda x: (np.hypot(x[:, 1] - 12, x[:, 2] - 10) <= 9.5 - 3 * (1 - abs(x[:, 0] % 30 - 15) / 5).clip(0)
+                            + 1e-9).all(), np.pi * (9.5**2 * 20 + (9.5**2 + 6.5**2 + 9.5 * 6.5) / 3 * 10))):
             with self.subTest(region):
-                dump = created(f"region part {region}\nrbc/create rbc hematocrit 0.15 seed 5 region part overlap 0.2 "
-                               "attempts 100000").dump()
+                dump = created(f"{vessel}\nregion part {region}\nrbc/create rbc hematocrit {hematocrit} seed 5 region part", 2,
+                               boundary="boundary p p p").dump()
                 number = len(dump("id")) // 162
-                self.assertAlmostEqual(number, 0.15 * size / volume(POINTS, TRIANGLES), delta=0.6)
-                self.check_cells(dump, number, 0.2)
+                self.assertAlmostEqual(number, hematocrit * size / volume(POINTS, TRIANGLES), delta=0.7)
+                self.check_cells(dump, number, mean_edge(POINTS, TRIANGLES) / 10, (True,) * 3)
                 self.assertTrue(inside(dump.positions()))
 
     def test_a_small_region_of_a_large_box_is_found(self):
@@ -156,17 +182,58 @@ class Random(unittest.TestCase):
         x = dump.positions()
         self.assertTrue(((x >= (500, 500, 5)) & (x <= (510, 510, 15))).all())
 
-    def test_second_call_keeps_clear_of_the_first(self):
-        cells = (f"{CAPSULE}\nrbc/create rbc number 8 seed 8\n"
-                 "rbc/create capsule number 12 seed 9 type 2 overlap 0.4 attempts 10000")
+    def test_keeps_clear_of_atoms_that_exist(self):
+        cells = f"mass * 1\n{CAPSULE}\nrbc/create capsule number 6 seed 8 type 2\n" \
+                "create_atoms 1 single 15 12 10\nset type 1 mol 7\nrbc/create rbc number 30 seed 9 overlap 0.4"
         types = "create_box 2 box angle/types 1"
         dumps = [created(cells, ranks, create_box=types).dump() for ranks in (1, 4)]
         np.testing.assert_array_equal(dumps[0].positions(), dumps[1].positions())
         dump = dumps[0]
-        np.testing.assert_array_equal(dump("id"), np.arange(1, 20 * 162 + 1))
-        np.testing.assert_array_equal(dump("mol"), np.repeat(np.arange(1, 21), 162))
-        np.testing.assert_array_equal(dump("type"), np.repeat([1, 2], [8 * 162, 12 * 162]))
-        self.assertGreaterEqual(least_distance(dump.positions(), dump("mol")), 0.4)
+        np.testing.assert_array_equal(dump("mol"), np.repeat(np.arange(1, 38), [162] * 6 + [1] + [162] * 30))
+        atoms = [(x + [(0, 0, 0)] * 3 + 1e-9 * np.eye(3), np.array([[0, 1, 2]])) for x in dump.positions()[:6 * 162 + 1]]
+        cells = [(x, TRIANGLES) for x in dump.positions()[6 * 162 + 1:].reshape(30, 162, 3)]
+        for atom in atoms[::20] + atoms[-1:]:
+            self.assertGreaterEqual(least_gap([atom, *cells], BOX, (True, True, False), 1), 0.4 - 1e-8)
+
+    def test_velocity_is_random_for_each_cell(self):
+        cells = "rbc/create rbc number 40 seed 4 velocity 0.002"
+        velocity = [created(cells, ranks, dump=dump_line(1, columns="id vx vy vz")).dump()("vx", "vy", "vz")
+                    for ranks in (1, 2)]
+        np.testing.assert_array_equal(*velocity)
+        of_cells = velocity[0].reshape(40, 162, 3)
+        np.testing.assert_array_equal(of_cells - of_cells[:, :1], 0)
+        values = np.sort(of_cells[:, 0].ravel()) / 0.004 + 0.5
+        distance = abs(values - (np.arange(120) + 0.5) / 120).max()
+        self.assertLess(distance, 1.95 / np.sqrt(120))    # Kolmogorov and Smirnov: uniform, 0.1 %
+
+
+class Mixed(unittest.TestCase):
+    TYPES = {"create_box": "create_box 3 box angle/types 1"}
+
+    def test_stiff_cells_and_platelets(self):
+        make_template("spheroid", "--axis-ratio", "0.3333333", "--diameter", "2.4", "--frequency", "3", "--output",
+                      "platelet.mol")
+        platelet, their_triangles = read_template("platelet.mol")
+        cells = f"molecule platelet {Path.cwd()}/platelet.mol\nrbc/create rbc hematocrit 0.35 seed 6 overlap 0.1 " \
+                "mix rbc 0.25 2 mix platelet 0.3 3"
+        dumps = [created(cells, ranks, **self.TYPES).dump() for ranks in (1, 2, 4)]
+        for dump in dumps[1:]:
+            np.testing.assert_array_equal(dump.positions(), dumps[0].positions())
+        dump = dumps[0]
+        kinds = [dump("type")[dump("mol") == m][0] for m in range(1, int(dump("mol").max()) + 1)]
+        self.assertEqual(kinds, sorted(kinds))
+        number = len(kinds)
+        mean_volume = 0.7 * volume(POINTS, TRIANGLES) + 0.3 * volume(platelet, their_triangles)
+        self.assertEqual(number, round(0.35 * BOX.prod() / mean_volume))
+        for kind, fraction in ((1, 0.45), (2, 0.25), (3, 0.3)):
+            self.assertAlmostEqual(kinds.count(kind), fraction * number, delta=1)
+        surfaces = [(dump.positions()[dump("mol") == m + 1], their_triangles if kind == 3 else TRIANGLES)
+                    for m, kind in enumerate(kinds)]
+        self.assertGreaterEqual(least_gap(surfaces, BOX, (True, True, False), 0.2), 0.1)
+
+    def test_whole_numbers_add_up(self):
+        dump = created("rbc/create rbc number 3 seed 6 mix rbc 0.3333 2 mix rbc 0.3333 3", **self.TYPES).dump()
+        np.testing.assert_array_equal(dump("type"), np.repeat([1, 2, 3], 162))
 
 
 class TwoKinds(unittest.TestCase):

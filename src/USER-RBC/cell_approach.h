@@ -1,0 +1,31 @@
+#pragma once
+
+#include "rigid_cell.h"
+
+#include <vector>
+
+namespace rbc {
+
+/// Vertices and edges of one cell, the probe, in the distance field of another of the same size, the body.
+class CellApproach {
+ public:
+  /// Those that are nearer than `reach`, lengths in those of the template.
+  CellApproach(const RigidCell &probe, const RigidCell &body, double reach);
+
+  bool empty() const { return vertices_.empty(); }
+
+  /// On the probe, gradient of the energy sum (clearance - distance)^2 / 2 over the vertices, and the points of edges
+  /// closest to the body, that are nearer than `clearance`. On the body the same acts in the other direction at the same
+  /// places.
+  void push(const RigidCell &probe, const RigidCell &body, double clearance, Push &push) const;
+
+ private:
+  struct Edge {
+    int a, b;
+  };
+
+  std::vector<int> vertices_;
+  std::vector<Edge> edges_;    ///< between places in vertices_
+};
+
+}    // namespace rbc
