@@ -177,11 +177,10 @@ void SteadySteps::move_chebyshev()
   const int past_steps = chebyshev_.past_steps();
   path_.clear(past_steps);
   const int known = update->dt > LARGEST_GROWTH * past_dt_[0] ? 0 : known_steps_;
-  for (int n = 0; n < known; ++n) {
-    path_.span(n) = past_dt_[n];
-    motion_.load(store_->astore, path_.moved(n), PAST + 3 * n);
+  for (int n = known - 1; n >= 0; --n) {
+    motion_.load(store_->astore, scratch_, PAST + 3 * n);
+    path_.add(past_dt_[n], scratch_);
   }
-  path_.set_steps(known);
   if (known < past_steps) {
     start_chebyshev();
     return;
