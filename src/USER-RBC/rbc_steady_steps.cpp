@@ -50,6 +50,7 @@ void SteadySteps::choose(Method method, int stages, int order, double tolerance,
   control_.smallest = SMALLEST_PART * largest_dt;
   control_.order = method == Method::EULER ? 1 : 2;
   if (chebyshev_.past_steps() > 0) control_.growth = LARGEST_GROWTH;
+  motion_.timestep_follows = control_.active();
 }
 
 int SteadySteps::numbers_per_atom() const
@@ -98,9 +99,8 @@ void SteadySteps::advance()
   bool again = false;
   do {
     fluid_->begin_step(again);
-    move();
     again = true;
-  } while (control_.active() && !accept());
+  } while (!attempt());
   motion_.store(position_, atom->x);
   motion_.check_positions();
   motion_.stop->check();
@@ -277,28 +277,54 @@ void SteadySteps::remember()
 }
 
 /* ----------------------------------------------------------------------
-   whether the local error is within its bound, and the timestep that this error suggests
+   whether a step has a result with an error within its bound; the timestep of the next one, or of this one again
 ------------------------------------------------------------------------- */
 
-bool SteadySteps::accept()
+bool SteadySteps::attempt()
+{
+  if (!control_.active()) {
+    move();
+    return true;
+  }
+
+  std::string flaw;
+  motion_.stop->trying = true;
+  try {
+    move();
+    measure_error();
+    next_dt_ = control_.next(update->dt, local_error_);
+  } catch (const CollectiveStop::FailedTrial &failed) {
+    flaw = failed.message;
+    next_dt_ = control_.after_failure(update->dt);
+    motion_.probing = false;
+  }
+  motion_.stop->trying = false;
+  if (flaw.empty() && local_error_ <= control_.tolerance) return true;
+
+  ++rejected_;
+  radius_step_ = -1;    // modes may have become faster, in contact for example
+  if (next_dt_ < control_.smallest) stop_adapting(flaw);
+  set_timestep(next_dt_, update->ntimestep - 1);
+  return false;
+}
+
+void SteadySteps::measure_error()
 {
   middle_ = velocity_;
   motion_.velocity(position_, 1.0, middle_);
   velocities_known_ = true;
   local_error_ =
       rbc::StepControl::error(motion_, update->dt, start_, position_, velocity_, middle_, scratch_);
-  next_dt_ = control_.next(update->dt, local_error_);
-  if (local_error_ <= control_.tolerance) return true;
+}
 
-  ++rejected_;
-  radius_step_ = -1;    // modes may have become faster, in contact for example
-  if (next_dt_ < control_.smallest)
-    error->all(FLERR,
-               "{}: no timestep above {:.3g} meets the error {:.3g} of adapt at step {}; the local "
-               "error is {:.3g}",
-               style_, control_.smallest, control_.tolerance, update->ntimestep, local_error_);
-  set_timestep(next_dt_, update->ntimestep - 1);
-  return false;
+void SteadySteps::stop_adapting(const std::string &flaw)
+{
+  if (!flaw.empty())
+    error->all(FLERR, "{} (so with all timesteps of adapt, down to {:.3g})", flaw, update->dt);
+  error->all(FLERR,
+             "{}: no timestep above {:.3g} meets the error {:.3g} of adapt at step {}; the local "
+             "error is {:.3g}",
+             style_, control_.smallest, control_.tolerance, update->ntimestep, local_error_);
 }
 
 /* ----------------------------------------------------------------------

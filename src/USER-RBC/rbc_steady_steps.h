@@ -77,8 +77,7 @@ class SteadySteps : protected Pointers {
   rbc::StepControl control_;
   double next_dt_ = 0, local_error_ = 0;
   bool restarted_ = false;
-  bool velocities_known_ =
-      false;    // those at the end of the step, before LAMMPS computed the forces there
+  bool velocities_known_ = false;    // those at the end of the step, before LAMMPS computes forces
   bigint rejected_ = 0;
 
   // Columns: whether the atom has a past; ab2 the velocity at the start of the last step, rkc the displacements in the
@@ -96,7 +95,9 @@ class SteadySteps : protected Pointers {
   void estimate_radius();
   void choose_stages(double dt);
   void remember();
-  bool accept();
+  bool attempt();
+  void measure_error();
+  void stop_adapting(const std::string &flaw);
   void set_timestep(double dt, bigint from_step);
 };
 
