@@ -1,7 +1,10 @@
 """What the study.py of the examples share: their options and how they run the example's script."""
 import argparse
+import csv
 import os
 import subprocess
+
+import numpy as np
 
 TOP = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
 POTENTIALS = os.path.join(TOP, "potentials")
@@ -28,3 +31,26 @@ def run_script(arguments, script, folder, variables, templates=POTENTIALS):
     if arguments.ranks > 1:
         command = ["mpirun", "-np", str(arguments.ranks), *command]
     return subprocess.run(command, cwd=folder, check=False, capture_output=True, text=True)
+
+
+def run_cases(arguments, path, columns, cases, run):
+    """{label: rows of numbers} of all (series, label, variables) of `cases`, by run(arguments, variables).
+
+    The CSV file keeps them: what it holds is not run again.
+    """
+    table = {}
+    if os.path.exists(path):
+        with open(path, encoding="utf-8") as file:
+            for row in csv.DictReader(file):
+                table.setdefault(row["case"], []).append([float(row[name]) for name in columns])
+    for series, label, variables in cases:
+        if label in table or not wanted(arguments, series):
+            continue
+        print(label, flush=True)
+        table[label] = run(arguments, variables)
+        with open(path, "w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(["case", *columns])
+            for name, rows in table.items():
+                writer.writerows([name, *(f"{value:.8g}" for value in row)] for row in rows)
+    return {label: np.array(rows) for label, rows in table.items()}

@@ -7,7 +7,6 @@ balloon.csv already holds are not run again.
     study.py [--lmp ../../build/lmp_rbc] [--ranks 1] [--only law mesh]
 """
 
-import csv
 import os
 import sys
 import tempfile
@@ -16,7 +15,7 @@ import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts"))
-from example_study import options, run_script, wanted  # noqa: E402
+from example_study import options, run_cases, run_script  # noqa: E402
 from read_ave_time import read_csv  # noqa: E402
 
 
@@ -155,23 +154,7 @@ def plot(table, path):
 
 def main():
     arguments = options(__doc__).parse_args()
-
-    path, table = os.path.join(HERE, "balloon.csv"), {}
-    if os.path.exists(path):
-        with open(path) as file:
-            for row in csv.DictReader(file):
-                table.setdefault(row["case"], []).append([float(row[n]) for n in ("stretch", "membrane", "fluid")])
-    for series, label, variables in cases():
-        if label in table or not wanted(arguments, series):
-            continue
-        print(label, flush=True)
-        table[label] = run(arguments, variables)
-        with open(path, "w", newline="") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(["case", "stretch", "membrane", "fluid"])
-            for name, rows in table.items():
-                writer.writerows([name, *(f"{value:.6g}" for value in row)] for row in rows)
-    table = {label: np.array(rows) for label, rows in table.items()}
+    table = run_cases(arguments, os.path.join(HERE, "balloon.csv"), ("stretch", "membrane", "fluid"), cases(), run)
     report(table)
     plot(table, os.path.join(HERE, "balloon.png"))
 

@@ -7,7 +7,6 @@ stretch.png. Cases that stretch.csv already holds are not run again.
     study.py [--lmp ../../build/lmp_rbc] [--ranks 1] [--only set mesh]
 """
 
-import csv
 import os
 import sys
 import tempfile
@@ -17,7 +16,7 @@ import numpy as np
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [os.path.join(HERE, "..", "..", folder) for folder in ("scripts", "potentials")]
 import make_template  # noqa: E402
-from example_study import options, run_script, wanted  # noqa: E402
+from example_study import options, run_cases, run_script  # noqa: E402
 from read_ave_time import read_csv, read_table  # noqa: E402
 
 LAW, AREA = "mooney-rivlin ${C1} ${C2} ${h}", "${kglobal} ${klocal}"    # as in.stretch has them
@@ -57,7 +56,7 @@ def cases():
 
 
 def run(arguments, variables):
-    """The table that in.stretch writes; loads at which the run stopped with an error are missing."""
+    """Rows of RESULTS that in.stretch writes; loads at which the run stopped with an error are missing."""
     with open(os.path.join(HERE, "in.stretch")) as file:
         script = file.read()
     assert LAW in script and AREA in script
@@ -71,7 +70,8 @@ def run(arguments, variables):
         print(*errors, sep="\n", end="\n" if errors else "")
         if not os.path.exists(os.path.join(folder, "stretch.dat")):
             raise SystemExit(result.stdout + result.stderr)
-        return read_results(folder)
+        found = read_results(folder)
+        return list(zip(*(found[name] for name in RESULTS)))
 
 
 RESULTS = ("load", "axial", "transverse", "area", "volume", "energy", "speed")
@@ -159,23 +159,8 @@ def plot(table, path):
 
 def main():
     arguments = options(__doc__).parse_args()
-
-    path, table = os.path.join(HERE, "stretch.csv"), {}
-    if os.path.exists(path):
-        with open(path) as file:
-            for row in csv.DictReader(file):
-                table.setdefault(row["case"], []).append({name: float(row[name]) for name in RESULTS})
-    for series, label, variables in cases():
-        if label in table or not wanted(arguments, series):
-            continue
-        print(label, flush=True)
-        columns = run(arguments, variables)
-        table[label] = [dict(zip(RESULTS, values)) for values in zip(*(columns[name] for name in RESULTS))]
-        with open(path, "w", newline="") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(["case", *RESULTS])
-            for name, rows in table.items():
-                writer.writerows([name, *(f"{row[n]:.8g}" for n in RESULTS)] for row in rows)
+    table = run_cases(arguments, os.path.join(HERE, "stretch.csv"), RESULTS, cases(), run)
+    table = {label: [dict(zip(RESULTS, row)) for row in rows] for label, rows in table.items()}
     report(table)
     plot(table, os.path.join(HERE, "stretch.png"))
 
