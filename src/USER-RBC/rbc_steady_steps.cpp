@@ -12,15 +12,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 using namespace LAMMPS_NS;
 using rbc::Numbers;
 
-// steps between estimates of the spectral radius, its safety factor, and how far points are displaced for it, over the
-// spacing of the fluid
+// Steps between estimates of the spectral radius: the interval is halved where the radius changes by more than the
+// larger of two parts from one to the next, doubled where it changes by less than the smaller. Its safety factor, and
+// how far points are displaced for it, over the spacing of the fluid.
 
-static constexpr int RADIUS_EVERY = 50;
-static constexpr double RADIUS_SAFETY = 1.06;
+static constexpr int SHORTEST_INTERVAL = 5, LONGEST_INTERVAL = 50;
+static constexpr double STEADY_CHANGE = 0.01, FAST_CHANGE = 0.03;
+static constexpr double RADIUS_SAFETY = 1.06, LARGEST_RADIUS_GROWTH = 1.5;
 static constexpr double RADIUS_DISPLACEMENT = 1.0e-5;
 
 // third order: largest ratio of a timestep to the one before, parts of a step without a past
@@ -67,6 +70,8 @@ void SteadySteps::start_run(FixRBCFluid *fluid, bool forces_change)
   forces_change_ = forces_change;
   first_step_ = update->ntimestep;
   radius_step_ = -1;
+  radius_interval_ = SHORTEST_INTERVAL;
+  raw_radius_ = 0;
   rejected_ = 0;
   if (!control_.active()) return;
   const bool changed = update->dt != last_dt_ && !restarted_;    // by the user
@@ -171,7 +176,8 @@ void SteadySteps::move_ab2()
 
 void SteadySteps::move_chebyshev()
 {
-  if (automatic_stages_ && (radius_step_ < 0 || update->ntimestep >= radius_step_ + RADIUS_EVERY))
+  if (automatic_stages_ &&
+      (radius_step_ < 0 || update->ntimestep >= radius_step_ + radius_interval_))
     estimate_radius();
 
   const int past_steps = chebyshev_.past_steps();
@@ -230,12 +236,28 @@ void SteadySteps::estimate_radius()
   motion_.probing = true;
   scratch_ = velocity_;
   motion_.velocity(start_, 0, scratch_);
-  radius_ = RADIUS_SAFETY * spectrum_.estimate(motion_, start_, scratch_, size, middle_);
+  const double last =
+      std::exchange(raw_radius_, spectrum_.estimate(motion_, start_, scratch_, size, middle_));
+  foresee_radius(last);
   motion_.probing = false;
   if (!std::isfinite(radius_))
     error->all(FLERR, "{}: the spectral radius is not a number at step {}", style_,
                update->ntimestep);
   motion_.store(middle_, store_->astore, mode_column());
+}
+
+/* ----------------------------------------------------------------------
+   what grows is taken to grow on until the next estimate
+------------------------------------------------------------------------- */
+
+void SteadySteps::foresee_radius(double last)
+{
+  const double ratio = last > 0 ? raw_radius_ / last : 1, change = std::abs(ratio - 1);
+  if (change > FAST_CHANGE)
+    radius_interval_ = std::max(radius_interval_ / 2, SHORTEST_INTERVAL);
+  else if (change < STEADY_CHANGE)
+    radius_interval_ = std::min(2 * radius_interval_, LONGEST_INTERVAL);
+  radius_ = RADIUS_SAFETY * raw_radius_ * std::clamp(ratio, 1.0, LARGEST_RADIUS_GROWTH);
 }
 
 void SteadySteps::choose_stages(double dt)

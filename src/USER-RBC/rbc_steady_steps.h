@@ -72,7 +72,9 @@ class SteadySteps : protected Pointers {
   bool automatic_stages_ = false;
   rbc::SpectralRadius spectrum_;
   double radius_ = 0;
+  double raw_radius_ = 0;    // the last estimate as it was
   bigint radius_step_ = -1;
+  int radius_interval_ = 0;
 
   rbc::StepControl control_;
   double next_dt_ = 0, local_error_ = 0;
@@ -93,6 +95,7 @@ class SteadySteps : protected Pointers {
   void move_chebyshev();
   void start_chebyshev();
   void estimate_radius();
+  void foresee_radius(double last);
   void choose_stages(double dt);
   void remember();
   bool attempt();
