@@ -31,8 +31,7 @@ class DirectForcing {
   };
 
   struct Outcome {
-    int outside =
-        -1;    ///< marker whose kernel leaves the ghost layers; nothing else is valid then
+    int outside = -1;    ///< marker whose kernel leaves the ghost layers: nothing else is valid
     int solves = 1;
     /// Of the force relative to the largest part of it, or of the velocity relative to the fastest fluid,
     /// whichever is less.

@@ -20,8 +20,8 @@ class Flow {
   Flow(const Flow &) = delete;
   Flow &operator=(const Flow &) = delete;
 
-  Drive
-      drive;    ///< of the time for which is solved: with inertia the middle of the step, then its end
+  /// Of the time for which is solved: with inertia the middle of the step, then its end.
+  Drive drive;
 
   void clear_force();
 
@@ -121,8 +121,7 @@ class Flow {
   VectorField previous_;    ///< velocity at the start of the step
   Walls previous_walls_;
   bool previous_shared_ = false;    ///< the ghosts of `previous_` are filled
-  VectorField
-      rhs_;    ///< of the momentum equation; without convection only where the pressure is asked for
+  VectorField rhs_;         ///< of the momentum equation; without convection for the pressure only
   bool stepped_ = false;    ///< since construction
 
   ScalarField pressure_;

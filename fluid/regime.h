@@ -19,8 +19,7 @@ struct Regime {
   double density = 1;    ///< without inertia not used
   Inertia inertia = Inertia::none;
   Scheme scheme = Scheme::coupled;
-  bool hold_mean =
-      true;    ///< triply periodic: a uniform pressure gradient holds the mean velocity
+  bool hold_mean = true;    ///< triply periodic: by a uniform pressure gradient
 };
 
 }    // namespace fluid

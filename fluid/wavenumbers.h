@@ -10,8 +10,7 @@ namespace fluid {
 /// (exp(i k h) - 1) / h = i kappa exp(i k h / 2) with the modified wavenumber kappa = 2 sin(k h / 2) / h.
 struct Wavenumbers {
   std::vector<double> kappa;
-  std::vector<std::complex<double>>
-      half_shift;    ///< exp(i k h / 2): from a face to the next centre
+  std::vector<std::complex<double>> half_shift;    ///< exp(i k h / 2), to the next centre
 
   Wavenumbers(int n, double h, int first, int last)
   {

@@ -7,10 +7,7 @@ balloon.csv already holds are not run again.
     study.py [--lmp ../../build/lmp_rbc] [--ranks 1] [--only law mesh]
 """
 
-import argparse
-import csv
 import os
-import subprocess
 import sys
 import tempfile
 
@@ -18,6 +15,7 @@ import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts"))
+from example_study import options, run_cases, run_script  # noqa: E402
 from read_ave_time import read_csv  # noqa: E402
 
 
@@ -75,14 +73,10 @@ def fluid_pressure(path):
     return pressure[radius < 0.4].mean() - pressure[radius > 1.5 * axis[-1]].mean()
 
 
-def run(lmp, ranks, variables):
+def run(arguments, variables):
     """Rows of stretch, pressure of membrane and fluid; times radius / Gs."""
     with tempfile.TemporaryDirectory() as folder:
-        command = ["mpirun", "-np", str(ranks), lmp, "-in", os.path.join(HERE, "in.balloon"), "-log", "none",
-                   "-var", "templates", os.path.join(HERE, "..", "..", "potentials")]
-        for name, value in variables.items():
-            command += ["-var", name, str(value)]
-        subprocess.run(command, cwd=folder, check=True, capture_output=True)
+        run_script(arguments, os.path.join(HERE, "in.balloon"), folder, variables).check_returncode()
         return measure(folder)
 
 
@@ -159,28 +153,8 @@ def plot(table, path):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--lmp", default=os.path.join(HERE, "..", "..", "build", "lmp_rbc"))
-    parser.add_argument("--ranks", type=int, default=1)
-    parser.add_argument("--only", nargs="*", help="series to run; default all")
-    arguments = parser.parse_args()
-
-    path, table = os.path.join(HERE, "balloon.csv"), {}
-    if os.path.exists(path):
-        with open(path) as file:
-            for row in csv.DictReader(file):
-                table.setdefault(row["case"], []).append([float(row[n]) for n in ("stretch", "membrane", "fluid")])
-    for series, label, variables in cases():
-        if label in table or (arguments.only is not None and series not in arguments.only):
-            continue
-        print(label, flush=True)
-        table[label] = run(os.path.abspath(arguments.lmp), arguments.ranks, variables)
-        with open(path, "w", newline="") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(["case", "stretch", "membrane", "fluid"])
-            for name, rows in table.items():
-                writer.writerows([name, *(f"{value:.6g}" for value in row)] for row in rows)
-    table = {label: np.array(rows) for label, rows in table.items()}
+    arguments = options(__doc__).parse_args()
+    table = run_cases(arguments, os.path.join(HERE, "balloon.csv"), ("stretch", "membrane", "fluid"), cases(), run)
     report(table)
     plot(table, os.path.join(HERE, "balloon.png"))
 

@@ -7,11 +7,9 @@ and writes study.csv and study.png. Cases that study.csv already holds are not r
     study.py --lmp ../../build/lmp_rbc [--only base] [--ranks 1]
 """
 
-import argparse
 import csv
 import os
 import re
-import subprocess
 import sys
 import tempfile
 
@@ -19,6 +17,7 @@ import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts"))
+from example_study import options, run_script, wanted  # noqa: E402
 from read_ave_time import read_ave_time  # noqa: E402
 
 CAPILLARY = (0.0375, 0.075, 0.15, 0.3, 0.6)
@@ -51,18 +50,14 @@ def cases():
         yield "timestep", dict(COARSE, timestep=dt)
 
 
-def run(lmp, ranks, variables):
+def run(arguments, variables):
     """Times (strain), D(t) and the loop time of one run."""
     every = variables["strain"] / 40 if variables["strain"] < 1 else 0.05
     with tempfile.TemporaryDirectory() as folder:
-        command = ["mpirun", "-np", str(ranks), lmp, "-in", os.path.join(HERE, "in.capsule-shear"),
-                   "-log", "none", "-var", "templates", os.path.join(HERE, "..", "..", "potentials"),
-                   "-var", "every", repr(every)]
-        for name, value in variables.items():
-            command += ["-var", name, str(value)]
-        output = subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True).stdout
+        done = run_script(arguments, os.path.join(HERE, "in.capsule-shear"), folder, dict(variables, every=every))
+        done.check_returncode()
         history = read_ave_time(os.path.join(folder, "cell.dat"))
-    loop = float(re.search(r"Loop time of (\S+)", output).group(1))
+    loop = float(re.search(r"Loop time of (\S+)", done.stdout).group(1))
     return history.steps * variables["timestep"], history.column(7)[:, 0], loop
 
 
@@ -210,19 +205,16 @@ def plot(rows, path):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--lmp", default=os.path.join(HERE, "..", "..", "build", "lmp_rbc"))
-    parser.add_argument("--ranks", type=int, default=1)
-    parser.add_argument("--only", nargs="*", help="series to run; default all")
+    parser = options(__doc__)
     parser.add_argument("--csv", default=os.path.join(HERE, "study.csv"))
     arguments = parser.parse_args()
 
     rows = load(arguments.csv)
     for series, variables in cases():
         name = key(series, variables)
-        if name in rows or (arguments.only is not None and series not in arguments.only):
+        if name in rows or not wanted(arguments, series):
             continue
-        t, d, loop = run(os.path.abspath(arguments.lmp), arguments.ranks, variables)
+        t, d, loop = run(arguments, variables)
         row = dict(zip(["series", *BASE], name), loop_seconds=f"{loop:.2f}", D_end=f"{d[-1]:.8g}",
                    samples=" ".join(f"{x:.6g}:{y:.8g}" for x, y in zip(t, d)))
         rows[name] = row

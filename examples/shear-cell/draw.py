@@ -5,10 +5,7 @@ ranges of D (after a strain of 5), of the area, and the largest error of the vol
     draw.py FOLDER        where cell.dat, vertices.dump, scene.dat and cells.*.vtp are; writes shear-cell.png
 """
 
-import glob
 import os
-import re
-import subprocess
 import sys
 
 import matplotlib
@@ -16,27 +13,22 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts")
-sys.path.insert(0, SCRIPTS)
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
 from membrane_motion import angles, read_dump  # noqa: E402
 from read_ave_time import read_ave_time  # noqa: E402
+from snapshots import picture, surfaces  # noqa: E402
 
 SNAPSHOTS = 5
-TUMBLE = 9.5  # strain of one tumble at 100 /s in plasma
+TUMBLE = 9.4  # strain of one tumble at 100 /s in plasma
 
 
 def snapshots(folder, strain):
     """(step, image) of surfaces over one tumble in the middle of the run, seen along the vorticity."""
-    step = lambda name: int(re.search(r"cells\.(\d+)\.", name).group(1))  # noqa: E731
-    files = sorted(glob.glob(os.path.join(folder, "cells.*.vtp")), key=step)
-    strains = np.array([step(name) for name in files]) * strain
+    steps, files = zip(*surfaces(folder))
+    strains = np.array(steps) * strain
     wanted = strains[-1] / 2 + np.linspace(0, min(TUMBLE, strains[-1] / 2), SNAPSHOTS)
-    files = [files[i] for i in np.unique(np.abs(strains[:, None] - wanted).argmin(axis=0))]
-    for name in files:
-        png = name[:-4] + ".png"
-        subprocess.run([os.path.join(SCRIPTS, "render_cells.py"), name, "-o", png, "--box", "0", "24", "0", "24",
-                        "0", "24", "--view", "10", "8", "--zoom", "2.4", "--size", "480x360"], check=True)
-        yield step(name), plt.imread(png)
+    for i in np.unique(np.abs(strains[:, None] - wanted).argmin(axis=0)):
+        yield steps[i], picture(files[i], 24)
 
 
 def main():

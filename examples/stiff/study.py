@@ -7,12 +7,10 @@ stiff.png. Cases that stiff.csv already holds are not run again.
     study.py [--lmp ../../build/lmp_rbc] [--ranks 1] [--only step rate]
 """
 
-import argparse
 import csv
-import glob
 import os
-import re
 import subprocess
+import sys
 import tempfile
 
 import matplotlib
@@ -21,10 +19,11 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-SCRIPTS = os.path.join(HERE, "..", "..", "scripts")
-POTENTIALS = os.path.join(HERE, "..", "..", "potentials")
+sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts"))
+from example_study import POTENTIALS, options, run_script, wanted  # noqa: E402
+from snapshots import picture, surfaces  # noqa: E402
 
-BASE = dict(rate=100, strain=13, timestep=1000, integrator="rkc auto", error=0, shape="rbc_642", dx=0.5)
+BASE = dict(rate=100, strain=13, timestep=1000, integrator="rkc auto", error=0, shape="rbc_642", dx=0.5, box=24)
 ASPECT = 2.565 / 7.82    # thickness over diameter of the disc, and the axis ratio of the spheroid
 COLUMNS = ("sheared", "area", "volume", "D", "axis_x", "axis_z", "solves", "stages", "step", "repeated")
 FIELDS = ("series", *BASE, "ended", "period", "D_low", "D_high", "area_change", "volume_error", "solves_per_ms", "stages",
@@ -43,7 +42,13 @@ def cases():
     for dx in (1.0, 0.6667, 0.4):
         yield "dx", dict(BASE, dx=dx)
     for dx in (1.0, 0.6667, 0.5, 0.4):
-        yield "spheroid", dict(BASE, shape="spheroid", dx=dx)
+        yield "spheroid", dict(BASE, shape="spheroid_642", dx=dx)
+    for box in (16, 20, 32):
+        yield "box", dict(BASE, shape="spheroid_642", box=box)
+    for dx in (0.6667, 0.4):
+        yield "small box", dict(BASE, shape="spheroid_642", dx=dx, box=16)
+    for vertices in (162, 362):
+        yield "mesh", dict(BASE, shape=f"spheroid_{vertices}")
     for integrator in ("euler", "midpoint", "ab2"):
         for timestep in (0.4, 0.8, 1.2, 1.6, 2.0):
             yield "explicit", dict(BASE, integrator=integrator, timestep=timestep, strain=round(1e-4 * 4000 * timestep, 6))
@@ -80,29 +85,26 @@ def measure(folder):
     return dict(zip(COLUMNS, data.T[1:]))
 
 
-def start(lmp, ranks, folder, variables):
-    template = os.path.join(folder, "spheroid.mol")
-    if variables["shape"] == "spheroid":
+def start(arguments, folder, variables):
+    """Runs in.stiff; returns whether it came to its end."""
+    shape, _, vertices = variables["shape"].partition("_")
+    if shape == "spheroid":
+        frequency = round(((int(vertices) - 2) / 10)**0.5)
         subprocess.run([os.path.join(POTENTIALS, "make_template.py"), "spheroid", "--axis-ratio", f"{ASPECT:.6f}", "--diameter", "7.82",
-                        "--frequency", "8", "--output", template], check=True, stdout=subprocess.DEVNULL)
+                        "--frequency", str(frequency), "--output", os.path.join(folder, f"{variables['shape']}.mol")],
+                       check=True, stdout=subprocess.DEVNULL)
     for name in os.listdir(POTENTIALS):
         if name.endswith((".mol", ".material")):
             os.symlink(os.path.join(POTENTIALS, name), os.path.join(folder, name))
-    command = [lmp, "-in", os.path.join(HERE, "in.stiff"), "-log", "log", "-screen", "none", "-var", "templates", folder]
-    for name, value in variables.items():
-        command += ["-var", name, str(value)]
-    if ranks > 1:
-        command = ["mpirun", "-np", str(ranks), *command]
-    return subprocess.run(command, cwd=folder, check=False).returncode
+    return run_script(arguments, os.path.join(HERE, "in.stiff"), folder, variables, templates=folder).returncode == 0
 
 
-def run(lmp, ranks, series, variables, keep=None):
+def run(arguments, series, variables):
     """A row of the table."""
-    with tempfile.TemporaryDirectory() as scratch:
-        folder = keep or scratch
-        code = start(lmp, ranks, folder, variables)
-        row = dict(variables, series=series, ended="yes" if code == 0 else "no")
-        if code:
+    with tempfile.TemporaryDirectory() as folder:
+        ended = start(arguments, folder, variables)
+        row = dict(variables, series=series, ended="yes" if ended else "no")
+        if not ended:
             return row
         history = measure(folder)
         strain = history["sheared"]
@@ -139,23 +141,19 @@ def read(path):
 
 
 def snapshots(folder, strains):
-    step = lambda name: int(re.search(r"cells\.(\d+)\.", name).group(1))  # noqa: E731
-    files = sorted(glob.glob(os.path.join(folder, "cells.*.vtp")), key=step)
-    at = np.array([step(name) for name in files]) / step(files[-1]) * BASE["strain"]
+    steps, files = zip(*surfaces(folder))
+    at = np.array(steps) / steps[-1] * BASE["strain"]
     for strain in strains:
         n = abs(at - strain).argmin()
-        png = files[n][:-4] + ".png"
-        subprocess.run([os.path.join(SCRIPTS, "render_cells.py"), files[n], "-o", png, "--box", "0", "24", "0", "24", "0", "24",
-                        "--view", "10", "8", "--zoom", "2.4", "--size", "480x360"], check=True)
-        yield at[n], plt.imread(png)
+        yield at[n], picture(files[n], BASE["box"])
 
 
-def draw(lmp, ranks, rows):
+def draw(arguments, rows):
     figure = plt.figure(figsize=(12, 6))
     grid = figure.add_gridspec(2, 10, height_ratios=(1.7, 1))
     turning, cost = figure.add_subplot(grid[0, :5]), figure.add_subplot(grid[0, 5:])
     with tempfile.TemporaryDirectory() as folder:
-        start(lmp, ranks, folder, dict(BASE, timestep=400))
+        start(arguments, folder, dict(BASE, timestep=400))
         history = measure(folder)
         angle = axis_angle(history)
         turning.plot(history["sheared"], np.degrees(angle), color="#b3202a", label="cell, 1000 times healthy")
@@ -171,11 +169,11 @@ def draw(lmp, ranks, rows):
             panel.imshow(image)
             panel.set_axis_off()
             panel.set_title(f"strain {at:.1f}", fontsize=10)
-    pick = lambda series, name: [float(row[name]) for row in rows  # noqa: E731
-                                 if row["series"] == series and row["ended"] == "yes" and row["solves_per_ms"]]
-    cost.loglog(pick("step", "timestep"), pick("step", "solves_per_ms"), "o-", label="rkc auto")
-    cost.loglog(pick("adapt", "mean_step"), pick("adapt", "solves_per_ms"), "s", label="rkc auto, adapt")
-    cost.loglog(pick("explicit", "timestep"), pick("explicit", "solves_per_ms"), "^", label="euler, midpoint, ab2: stable")
+    for series, style, label in (("step", "o-", "rkc auto"), ("adapt", "s", "rkc auto, adapt"),
+                                 ("explicit", "^", "euler, midpoint, ab2: stable")):
+        points = sorted((float(row["mean_step"]), float(row["solves_per_ms"])) for row in rows
+                        if row["series"] == series and row["ended"] == "yes")
+        cost.loglog(*zip(*points), style, label=label)
     cost.axvline(89, color="#999999", linewidth=0.8)
     cost.text(95, cost.get_ylim()[1] / 2, "the paper's step", color="#666666", fontsize=9)
     cost.set(xlabel="timestep / µs", ylabel="solves per physical ms")
@@ -191,24 +189,18 @@ def best_aspect(history):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--lmp", default=os.path.join(HERE, "..", "..", "build", "lmp_rbc"))
-    parser.add_argument("--ranks", type=int, default=1)
-    parser.add_argument("--only", nargs="*", help="series to run")
-    arguments = parser.parse_args()
-    lmp, path = os.path.abspath(arguments.lmp), os.path.join(HERE, "stiff.csv")
+    arguments = options(__doc__).parse_args()
+    path = os.path.join(HERE, "stiff.csv")
 
     rows = read(path)
     known = {(row["series"], *(row[name] for name in BASE)) for row in rows}
     for series, variables in cases():
-        if arguments.only is not None and series not in arguments.only:
-            continue
-        if (series, *(text(variables[name]) for name in BASE)) in known:
+        if (series, *(text(variables[name]) for name in BASE)) in known or not wanted(arguments, series):
             continue
         print(series, variables, flush=True)
-        rows.append(run(lmp, arguments.ranks, series, variables))
+        rows.append(run(arguments, series, variables))
         write(path, rows)
-    draw(lmp, arguments.ranks, rows)
+    draw(arguments, rows)
     print(f"Jeffery's period for an aspect ratio of {ASPECT:.4f}: {jeffery_period(ASPECT):.2f}")
 
 

@@ -7,10 +7,7 @@ stretch.png. Cases that stretch.csv already holds are not run again.
     study.py [--lmp ../../build/lmp_rbc] [--ranks 1] [--only set mesh]
 """
 
-import argparse
-import csv
 import os
-import subprocess
 import sys
 import tempfile
 
@@ -19,6 +16,7 @@ import numpy as np
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [os.path.join(HERE, "..", "..", folder) for folder in ("scripts", "potentials")]
 import make_template  # noqa: E402
+from example_study import options, run_cases, run_script  # noqa: E402
 from read_ave_time import read_csv, read_table  # noqa: E402
 
 LAW, AREA = "mooney-rivlin ${C1} ${C2} ${h}", "${kglobal} ${klocal}"    # as in.stretch has them
@@ -57,8 +55,8 @@ def cases():
     yield "still", "still 5e-7", dict(SHORT, still=5e-7)
 
 
-def run(lmp, ranks, variables):
-    """The table that in.stretch writes; loads at which the run stopped with an error are missing."""
+def run(arguments, variables):
+    """Rows of RESULTS that in.stretch writes; loads at which the run stopped with an error are missing."""
     with open(os.path.join(HERE, "in.stretch")) as file:
         script = file.read()
     assert LAW in script and AREA in script
@@ -66,17 +64,14 @@ def run(lmp, ranks, variables):
     with tempfile.TemporaryDirectory() as folder:
         with open(os.path.join(folder, "in.stretch"), "w") as file:
             file.write(script)
-        command = ["mpirun", "-np", str(ranks), lmp, "-in", "in.stretch", "-log", "none",
-                   "-var", "templates", os.path.join(HERE, "..", "..", "potentials")]
-        for name in ("contact", "shape", "patch", "dx", "length", "width", "timestep", "still"):
-            command += ["-var", name, str(variables[name])]
-        result = subprocess.run([*command, "-var", "load", *variables["load"].split()], cwd=folder,
-                                capture_output=True, text=True)
+        given = {name: value for name, value in variables.items() if name not in ("law", "area")}
+        result = run_script(arguments, "in.stretch", folder, dict(given, load=variables["load"].split()))
         errors = [line for line in result.stdout.splitlines() if line.startswith("ERROR")]
         print(*errors, sep="\n", end="\n" if errors else "")
         if not os.path.exists(os.path.join(folder, "stretch.dat")):
             raise SystemExit(result.stdout + result.stderr)
-        return read_results(folder)
+        found = read_results(folder)
+        return list(zip(*(found[name] for name in RESULTS)))
 
 
 RESULTS = ("load", "axial", "transverse", "area", "volume", "energy", "speed")
@@ -163,28 +158,9 @@ def plot(table, path):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--lmp", default=os.path.join(HERE, "..", "..", "build", "lmp_rbc"))
-    parser.add_argument("--ranks", type=int, default=1)
-    parser.add_argument("--only", nargs="*", help="series to run; default all")
-    arguments = parser.parse_args()
-
-    path, table = os.path.join(HERE, "stretch.csv"), {}
-    if os.path.exists(path):
-        with open(path) as file:
-            for row in csv.DictReader(file):
-                table.setdefault(row["case"], []).append({name: float(row[name]) for name in RESULTS})
-    for series, label, variables in cases():
-        if label in table or (arguments.only is not None and series not in arguments.only):
-            continue
-        print(label, flush=True)
-        columns = run(os.path.abspath(arguments.lmp), arguments.ranks, variables)
-        table[label] = [dict(zip(RESULTS, values)) for values in zip(*(columns[name] for name in RESULTS))]
-        with open(path, "w", newline="") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(["case", *RESULTS])
-            for name, rows in table.items():
-                writer.writerows([name, *(f"{row[n]:.8g}" for n in RESULTS)] for row in rows)
+    arguments = options(__doc__).parse_args()
+    table = run_cases(arguments, os.path.join(HERE, "stretch.csv"), RESULTS, cases(), run)
+    table = {label: [dict(zip(RESULTS, row)) for row in rows] for label, rows in table.items()}
     report(table)
     plot(table, os.path.join(HERE, "stretch.png"))
 

@@ -11,11 +11,10 @@ struct CellElements {
   std::vector<int> triangles, hinges;    ///< of the template
   int loaded = 0;                        ///< triangles that touch an owned vertex; they come first
 
-  std::array<std::vector<int>, 3> corners;    ///< of each triangle
-  std::array<std::vector<int>, 3>
-      opposite;                    ///< of each loaded triangle: the hinge that faces each corner
-  std::vector<int> begin, end;     ///< vertices of each hinge: a and b
-  std::vector<int> left, right;    ///< triangles of each hinge
+  std::array<std::vector<int>, 3> corners;     ///< of each triangle
+  std::array<std::vector<int>, 3> opposite;    ///< of loaded triangles: hinge facing each corner
+  std::vector<int> begin, end;                 ///< vertices of each hinge: a and b
+  std::vector<int> left, right;                ///< triangles of each hinge
 
   /// 1 where this rank counts the energy, 0 where another does: the owner of the first vertex.
   std::vector<double> triangle_counts, hinge_counts;

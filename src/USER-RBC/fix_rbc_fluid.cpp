@@ -7,7 +7,6 @@
 #include "error.h"
 #include "force.h"
 #include "grid3d.h"
-#include "memory.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "output.h"
@@ -22,14 +21,20 @@ using namespace FixConst;
 
 static constexpr int MIN_CELLS = 4;
 static constexpr double MAX_COURANT = 1.0;
-static constexpr double MAX_CELLS =
-    0.25 * MAXSMALLINT;    // on a rank: a message counts three values of each in an int
-static constexpr int KERNEL_LAYERS =
-    2;    // reach of the widest kernel beyond the cell of an atom, staggering included
+
+// on a rank: a message counts three values of each in an int
+
+static constexpr double MAX_CELLS = 0.25 * MAXSMALLINT;
+
+// reach of the widest kernel beyond the cell of an atom, staggering included
+
+static constexpr int KERNEL_LAYERS = 2;
 
 /* ---------------------------------------------------------------------- */
 
-FixRBCFluid::FixRBCFluid(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), stop(lmp)
+FixRBCFluid::FixRBCFluid(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), drive(lmp, fmt::format("Fix rbc/fluid {}", id)), centred(lmp),
+    restarts(lmp, fmt::format("Fix rbc/fluid {}", id)), stop(lmp)
 {
   scalar_flag = vector_flag = 1;
   size_vector = 12;
@@ -59,15 +64,12 @@ FixRBCFluid::FixRBCFluid(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg
 
 /* ---------------------------------------------------------------------- */
 
-FixRBCFluid::~FixRBCFluid()
-{
-  free_data();
-}
+FixRBCFluid::~FixRBCFluid() = default;
 
 /* ---------------------------------------------------------------------- */
 
 void FixRBCFluid::parse_vector(int iarg, int narg, char **arg, const char *keyword,
-                               std::array<NumberOrVariable, 3> &vector)
+                               FlowDrive::Vector &vector)
 {
   if (iarg + 3 > narg)
     utils::missing_cmd_args(FLERR, std::string("fix rbc/fluid ") + keyword, error);
@@ -149,8 +151,8 @@ void FixRBCFluid::parse(int narg, char **arg)
         error->all(FLERR, iarg,
                    "Fix rbc/fluid wall {} on a periodic side: z must be fixed (boundary p p f)",
                    side);
-      parse_vector(iarg + 2, narg, arg, "wall", side == "zlo" ? lower : upper);
-      const NumberOrVariable &normal = (side == "zlo" ? lower : upper)[2];
+      parse_vector(iarg + 2, narg, arg, "wall", side == "zlo" ? drive.lower : drive.upper);
+      const NumberOrVariable &normal = (side == "zlo" ? drive.lower : drive.upper)[2];
       if (normal.is_variable() || normal.value(lmp) != 0)
         error->all(
             FLERR, iarg + 4,
@@ -159,7 +161,7 @@ void FixRBCFluid::parse(int narg, char **arg)
       wall_given[side == "zhi"] = true;
       iarg += 5;
     } else if (keyword == "body") {
-      parse_vector(iarg + 1, narg, arg, "body", body);
+      parse_vector(iarg + 1, narg, arg, "body", drive.body);
       iarg += 4;
     } else if (keyword == "mean") {
       need(1, "mean");
@@ -173,7 +175,7 @@ void FixRBCFluid::parse(int narg, char **arg)
         iarg += 2;
       } else {
         free_mean = false;
-        parse_vector(iarg + 1, narg, arg, "mean", mean);
+        parse_vector(iarg + 1, narg, arg, "mean", drive.mean);
         iarg += 4;
       }
     } else
@@ -183,8 +185,6 @@ void FixRBCFluid::parse(int narg, char **arg)
                  keyword);
   }
 
-  for (const auto *vector : {&lower, &upper, &body, &mean})
-    for (const NumberOrVariable &component : *vector) varying = varying || component.is_variable();
   walls = !domain->zperiodic;
   if (walls && !(wall_given[0] && wall_given[1]))
     error->all(FLERR, "Fix rbc/fluid needs wall zlo and wall zhi where z is not periodic");
@@ -197,7 +197,7 @@ void FixRBCFluid::parse(int narg, char **arg)
                       "inertia a net force has nothing to accelerate");
   regime.hold_mean = mean_given ? !free_mean : !has_inertia();
   if (!walls && regime.hold_mean && comm->me == 0)
-    for (const NumberOrVariable &component : body)
+    for (const NumberOrVariable &component : drive.body)
       if (component.is_variable() || component.value(lmp) != 0) {
         error->warning(FLERR, "Fix rbc/fluid body has no effect in a triply periodic box whose "
                               "mean velocity is held: a pressure gradient balances it");
@@ -276,7 +276,7 @@ int FixRBCFluid::layers_needed() const
 
 void FixRBCFluid::build_flow()
 {
-  free_data();
+  centred.free();
   grid = std::make_unique<Grid3d>(lmp, world, cells[0], cells[1], cells[2]);
   int lo[3], hi[3], outlo[3], outhi[3];
   grid->setup_grid(lo[0], hi[0], lo[1], hi[1], lo[2], hi[2], outlo[0], outhi[0], outlo[1], outhi[1],
@@ -325,10 +325,9 @@ void FixRBCFluid::init()
                  "Fix rbc/fluid {}: the simulation box has changed since the fix was defined", id);
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix rbc/fluid cannot be used with run_style respa");
-  for (const auto *vector : {&lower, &upper, &body, &mean})
-    for (const auto &component : *vector) component.check(lmp, "fix rbc/fluid");
+  drive.check();
 
-  if (has_inertia() && output->restart_flag) check_restart_size();
+  if (has_inertia() && output->restart_flag) restarts.check_size(*current_flow);
 
   std::string driver;
   for (Fix *fix : modify->get_fix_by_style("^rbc/ib$")) {
@@ -372,7 +371,7 @@ void FixRBCFluid::final_integrate()
     drive_end();
     current_flow->finish_step();
     flow_changed();
-  } else if (varying) {
+  } else if (drive.varies()) {
     drive_now();
     advance_alone();
   }
@@ -428,42 +427,13 @@ void FixRBCFluid::report_too_fast(const std::array<double, 3> &x, double courant
 }
 
 /* ----------------------------------------------------------------------
-   what drives the flow at the end of the step, or now: variables know no other times
-------------------------------------------------------------------------- */
-
-fluid::Drive FixRBCFluid::evaluate_drive()
-{
-  if (!varying && drive_known) return end_of_step;
-  drive_known = true;
-  modify->clearstep_compute();
-  fluid::Drive now;
-  for (int d = 0; d < 3; ++d) {
-    now.walls.lower[d] = lower[d].value(lmp);
-    now.walls.upper[d] = upper[d].value(lmp);
-    now.body[d] = body[d].value(lmp) * force->ftm2v;
-    now.mean[d] = mean[d].value(lmp);
-  }
-  modify->addstep_compute(update->ntimestep + 1);
-
-  for (const auto *vector : {&now.walls.lower, &now.walls.upper, &now.body, &now.mean})
-    for (double component : *vector)
-      if (!std::isfinite(component))
-        error->all(
-            FLERR,
-            "Fix rbc/fluid {}: a plate velocity, body force or mean velocity is not a number "
-            "at step {}",
-            id, update->ntimestep);
-  return now;
-}
-
-/* ----------------------------------------------------------------------
    a flow that has made steps goes on from the drive at the end of the last, though variables may jump between runs
 ------------------------------------------------------------------------- */
 
 void FixRBCFluid::drive_at_setup()
 {
   ++version;
-  if (has_inertia() && drive_known)
+  if (has_inertia() && drive.is_known())
     drive_end();
   else
     drive_now();
@@ -471,36 +441,24 @@ void FixRBCFluid::drive_at_setup()
 
 void FixRBCFluid::drive_now()
 {
-  current_flow->drive = end_of_step = evaluate_drive();
+  current_flow->drive = drive.evaluate();
 }
 
-/* ----------------------------------------------------------------------
-   within a step the drive is interpolated between its ends; a step that is taken again may be shorter
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 void FixRBCFluid::begin_step(bool again)
 {
-  if (!again) start_of_step = end_of_step;
-  end_of_step = evaluate_drive();
+  drive.begin_step(again);
 }
 
 void FixRBCFluid::drive_at(double fraction)
 {
-  fluid::Drive &drive = current_flow->drive;
-  const auto mix = [fraction](double start, double end) {
-    return start + fraction * (end - start);
-  };
-  for (int d = 0; d < 3; ++d) {
-    drive.walls.lower[d] = mix(start_of_step.walls.lower[d], end_of_step.walls.lower[d]);
-    drive.walls.upper[d] = mix(start_of_step.walls.upper[d], end_of_step.walls.upper[d]);
-    drive.body[d] = mix(start_of_step.body[d], end_of_step.body[d]);
-    drive.mean[d] = mix(start_of_step.mean[d], end_of_step.mean[d]);
-  }
+  current_flow->drive = drive.at(fraction);
 }
 
 void FixRBCFluid::drive_end()
 {
-  current_flow->drive = end_of_step;
+  current_flow->drive = drive.end();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -569,164 +527,31 @@ void *FixRBCFluid::get_grid_by_index(int index)
 
 int FixRBCFluid::get_griddata_by_name(int igrid, const std::string &name, int &ncol)
 {
-  if (igrid != 0) return -1;
-  ncol = name == "pressure" ? 0 : 3;
-  if (name == "velocity") return VELOCITY;
-  if (name == "pressure") return PRESSURE;
-  if (name == "force") return FORCE;
-  return -1;
+  return igrid == 0 ? CentredData::find(name, ncol) : -1;
 }
-
-/* ----------------------------------------------------------------------
-   data is made when a dump or fix ave/grid asks for it, at most once per solve
-   pressure costs a solve; all ranks ask in the same order
-------------------------------------------------------------------------- */
 
 void *FixRBCFluid::get_griddata_by_index(int index)
 {
-  if (index < 0 || index >= NDATA) return nullptr;
-  const fluid::Box &box = current_flow->brick();
-  const auto &[lo, hi] = box;
-  if (!data[index]) {
-    if (index == PRESSURE) {
-      double ***p = nullptr;
-      memory->create3d_offset(p, lo[2], hi[2] - 1, lo[1], hi[1] - 1, lo[0], hi[0] - 1,
-                              "rbc/fluid:pressure");
-      data[index] = p;
-    } else {
-      double ****v = nullptr;
-      memory->create4d_offset_last(v, lo[2], hi[2] - 1, lo[1], hi[1] - 1, lo[0], hi[0] - 1, 3,
-                                   "rbc/fluid:data");
-      data[index] = v;
-    }
-    data_version[index] = -1;
-  }
-  if (data_version[index] == version) return data[index];
-  data_version[index] = version;
-
-  if (index == PRESSURE) {
-    const auto pressure = current_flow->pressure()[0];
-    const double to_pressure = 1.0 / force->ftm2v;
-    auto p = static_cast<double ***>(data[index]);
-    for (int k = lo[2]; k < hi[2]; ++k)
-      for (int j = lo[1]; j < hi[1]; ++j)
-        for (int i = lo[0]; i < hi[0]; ++i) p[k][j][i] = pressure(i, j, k) * to_pressure;
-  } else if (index == VELOCITY) {
-    current_flow->share_velocity();
-    fill_centred(static_cast<double ****>(data[index]), &current_flow->velocity(), {0, 0, 0}, 1.0);
-  } else {
-    const bool spread = current_flow->has_force();
-    if (spread) current_flow->share_force();
-    fill_centred(static_cast<double ****>(data[index]), spread ? &current_flow->force() : nullptr,
-                 current_flow->drive.body, 1.0 / force->ftm2v);
-  }
-  return data[index];
-}
-
-/* ----------------------------------------------------------------------
-   faces to centres, plus a uniform vector
-------------------------------------------------------------------------- */
-
-void FixRBCFluid::fill_centred(double ****centred, const fluid::VectorField *field,
-                               const std::array<double, 3> &uniform, double scale)
-{
-  const auto &[lo, hi] = current_flow->brick();
-  for (int k = lo[2]; k < hi[2]; ++k)
-    for (int j = lo[1]; j < hi[1]; ++j)
-      for (int i = lo[0]; i < hi[0]; ++i)
-        for (int c = 0; c < 3; ++c) {
-          double value = uniform[c];
-          if (field)
-            value += 0.5 *
-                     ((*field)[c](i, j, k) + (*field)[c](i + (c == 0), j + (c == 1), k + (c == 2)));
-          centred[k][j][i][c] = scale * value;
-        }
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixRBCFluid::free_data()
-{
-  if (!current_flow) return;
-  const auto &lo = current_flow->brick().lo;
-  for (int index = 0; index < NDATA; ++index) {
-    if (!data[index]) continue;
-    if (index == PRESSURE) {
-      auto p = static_cast<double ***>(data[index]);
-      memory->destroy3d_offset(p, lo[2], lo[1], lo[0]);
-    } else {
-      auto v = static_cast<double ****>(data[index]);
-      memory->destroy4d_offset_last(v, lo[2], lo[1], lo[0]);
-    }
-    data[index] = nullptr;
-  }
+  return centred.get(index, *current_flow, version);
 }
 
 /* ---------------------------------------------------------------------- */
 
 double FixRBCFluid::memory_usage()
 {
-  double bytes = static_cast<double>(current_flow->bytes());
-  const double cells_here = static_cast<double>(current_flow->brick().size());
-  for (int index = 0; index < NDATA; ++index)
-    if (data[index]) bytes += cells_here * (index == PRESSURE ? 1 : 3) * sizeof(double);
-  return bytes;
+  return static_cast<double>(current_flow->bytes()) + centred.bytes();
 }
 
-/* ----------------------------------------------------------------------
-   the fluid's history: numbers that tell what it belongs to, then that of the library
-------------------------------------------------------------------------- */
-
-std::vector<double> FixRBCFluid::restart_head() const
-{
-  return {double(cells[0]),      double(cells[1]),
-          double(cells[2]),      domain->prd[0],
-          domain->prd[1],        domain->prd[2],
-          double(walls),         double(regime.inertia),
-          double(regime.scheme), double(current_flow->history_length())};
-}
-
-double FixRBCFluid::restart_bytes() const
-{
-  return sizeof(double) * (restart_head().size() + 1.0 + current_flow->history_length());
-}
-
-void FixRBCFluid::check_restart_size() const
-{
-  if (restart_bytes() > MAXSMALLINT)
-    error->all(
-        FLERR,
-        "Fix rbc/fluid {}: the history of {} x {} x {} cells, {:.3g} bytes, does not fit into "
-        "a restart file, which holds 2 GB of it",
-        id, cells[0], cells[1], cells[2], restart_bytes());
-}
+/* ---------------------------------------------------------------------- */
 
 void FixRBCFluid::write_restart(FILE *fp)
 {
-  check_restart_size();
-  const std::vector<double> history = current_flow->history();
-  if (comm->me != 0) return;
-  std::vector<double> head = restart_head();
-  head.push_back(double(solves()));
-  const int size = static_cast<int>(restart_bytes());
-  fwrite(&size, sizeof(int), 1, fp);
-  fwrite(head.data(), sizeof(double), head.size(), fp);
-  fwrite(history.data(), sizeof(double), history.size(), fp);
+  restarts.write(fp, *current_flow, solves());
 }
 
 void FixRBCFluid::restart(char *buffer)
 {
-  const auto head = reinterpret_cast<const double *>(buffer);
-  const std::vector<double> expected = restart_head();
-  if (!std::equal(expected.begin(), expected.end(), head))
-    error->all(
-        FLERR,
-        "Fix rbc/fluid {}: the restart file holds this flow on a grid of {} {} {} cells, or "
-        "in another box, or with another inertia or scheme; define the fix as it was, or use "
-        "another fix ID to start from rest",
-        id, head[0], head[1], head[2]);
-  earlier_solves = static_cast<bigint>(head[expected.size()]);
-  current_flow->restore(head + expected.size() + 1);
+  earlier_solves = restarts.restore(buffer, *current_flow);
   flow_changed();
 }
 

@@ -9,8 +9,10 @@ FixStyle(rbc/fluid,FixRBCFluid);
 
 #include "fix.h"
 #include "measures.h"
+#include "rbc_centred_data.h"
 #include "rbc_collective_stop.h"
-#include "rbc_number_or_variable.h"
+#include "rbc_flow_drive.h"
+#include "rbc_flow_restart.h"
 
 #include <array>
 #include <memory>
@@ -54,23 +56,18 @@ class FixRBCFluid : public Fix {
   std::string costs(bigint steps) const;
 
  private:
-  enum Data { VELOCITY, PRESSURE, FORCE, NDATA };
-
   double box_lo[3], box_hi[3];    // when the grid was chosen
   std::array<int, 3> cells{};
   double target_spacing = 0;
   fluid::Regime regime;
   bool walls = false;
-  std::array<NumberOrVariable, 3> lower, upper, body, mean;
+  FlowDrive drive;
 
   std::unique_ptr<class Grid3d> grid;
   std::unique_ptr<fluid::Flow> current_flow;
   int ghost_layers = -1;
-  bool driven = false;          // by a fix rbc/ib
-  double cells_per_step = 1;    // that its atoms may cross
-  bool varying = false;         // a variable drives the flow
-  bool drive_known = false;
-  fluid::Drive start_of_step, end_of_step;
+  bool driven = false;               // by a fix rbc/ib
+  double cells_per_step = 1;         // that its atoms may cross
   bigint earlier_solves = 0;         // before a restart
   bigint version = 0;                // of the velocity
   fluid::Traffic earlier_traffic;    // on earlier decompositions
@@ -80,11 +77,12 @@ class FixRBCFluid : public Fix {
   fluid::FlowMeasures measures;
   bigint measured_version = -1;
 
-  std::array<void *, NDATA> data{};    // cell-centred, allocated when first asked for
-  std::array<bigint, NDATA> data_version{};
+  CentredData centred;
+  FlowRestart restarts;
+  CollectiveStop stop;
 
   void parse(int, char **);
-  void parse_vector(int, int, char **, const char *, std::array<NumberOrVariable, 3> &);
+  void parse_vector(int, int, char **, const char *, FlowDrive::Vector &);
   void choose_grid();
   void check_grid() const;
   int layers_needed() const;
@@ -92,14 +90,7 @@ class FixRBCFluid : public Fix {
   void advance_alone();
   void check_courant();
   void report_too_fast(const std::array<double, 3> &x, double courant);
-  CollectiveStop stop;
-  std::vector<double> restart_head() const;
-  double restart_bytes() const;
-  void check_restart_size() const;
-  fluid::Drive evaluate_drive();
   fluid::Traffic traffic() const;
-  void free_data();
-  void fill_centred(double ****, const fluid::VectorField *, const std::array<double, 3> &, double);
   const fluid::FlowMeasures &measure();
 };
 

@@ -288,7 +288,7 @@ void FixRBCIB::setup(int /*vflag*/)
     motion->update_velocities(Stage::START);
   else if (scheme == Scheme::ELASTIC && fluid_fix->flow().steps() == 0)
     motion->interpolate(Stage::START);
-  motion->check_velocities();
+  motion->check_velocities(Stage::START);
   motion->reset_stopwatches();
   for (FixRBCMembrane *membrane : membranes) membrane->stopwatch.reset();
   contact = dynamic_cast<PairRBCJKR *>(force->pair_match("rbc/jkr", 1));
@@ -362,7 +362,7 @@ void FixRBCIB::step_fluid()
     motion->solving.stop();
     motion->keep_volume(Stage::START);
   }
-  motion->check_velocities();
+  motion->check_velocities(Stage::MIDDLE);
   motion->solving.start();
   fluid_fix->drive_end();
   flow.finish_step();

@@ -37,10 +37,7 @@ class FixRBCIB : public Fix {
   void set_arrays(int) override;
 
   const std::string &fluid() const { return fluid_id; }    // ID of the fix rbc/fluid it drives
-  double courant() const
-  {
-    return motion->courant;
-  }    // fluid cells that an atom may cross in a step
+  double courant() const { return motion->courant; }    // fluid cells that an atom may cross a step
 
  private:
   using Integrator = SteadySteps::Method;
@@ -58,8 +55,7 @@ class FixRBCIB : public Fix {
   std::unique_ptr<SteadySteps> steady;
 
   bigint first_solve = 0, first_step = 0;
-  bool late_forces =
-      false;    // a fix defined after this one adds forces, which setup() does not see
+  bool late_forces = false;    // of a fix defined after this one, which setup() does not see
 
   // kept per atom while it migrates and in restart files
 

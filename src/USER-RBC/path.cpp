@@ -20,7 +20,7 @@ void Path::add(double span, const Numbers &moved)
   steps_ = std::min(steps_ + 1, most_);
 }
 
-/// The place k steps ago is X - moved(0) - .. - moved(k - 1): displacement n counts, negative, in the Lagrange
+/// The place k steps ago is X - moved_0 - .. - moved_k-1: displacement n counts, negative, in the Lagrange
 /// polynomials of all places before it.
 Path::Weights Path::weights(double t, bool derivative) const
 {

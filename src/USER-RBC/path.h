@@ -12,7 +12,6 @@ class Path {
   static constexpr int LONGEST = 3;
 
   int steps() const { return steps_; }
-  double last_span() const { return spans_[0]; }
 
   /// Forgets all, and keeps up to `most` steps from now on.
   void clear(int most);
@@ -20,13 +19,8 @@ class Path {
   /// A step that took `span` moved the points by `moved`.
   void add(double span, const Numbers &moved);
 
-  /// Displacement in the n-th last step, n = 0 .. steps() - 1, and the time it took.
-  Numbers &moved(int n) { return moved_[n]; }
-  double &span(int n) { return spans_[n]; }
-  void set_steps(int steps) { steps_ = steps; }
-
-  /// Weights w of the displacements in the polynomial P(t) = X + sum_n w_n moved(n) at time t from now, and in its
-  /// derivative.
+  /// Weights w of the displacements, the last first, in the polynomial P(t) = X + sum_n w_n moved_n at time t from now,
+  /// and in its derivative.
   using Weights = std::array<double, LONGEST>;
   Weights place(double t) const { return weights(t, false); }
   Weights speed(double t) const { return weights(t, true); }

@@ -38,8 +38,8 @@ LAMMPS_NS::make_cell_template(LAMMPS *lmp, const std::string &id, const std::str
   for (int i = 0; i < molecule->natoms; ++i) {
     vertices.emplace_back(molecule->x[i][0], molecule->x[i][1], molecule->x[i][2]);
     for (int n = 0; n < molecule->num_angle[i]; ++n) {
-      if (molecule->angle_atom2[i][n] != i + 1)
-        continue;    // without newton_bond every corner lists the angle
+      // without newton_bond every corner lists the angle
+      if (molecule->angle_atom2[i][n] != i + 1) continue;
       triangles.push_back({static_cast<int>(molecule->angle_atom1[i][n]) - 1, i,
                            static_cast<int>(molecule->angle_atom3[i][n]) - 1});
     }

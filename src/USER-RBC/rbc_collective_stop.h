@@ -16,6 +16,12 @@ class CollectiveStop : protected Pointers {
  public:
   using Pointers::Pointers;
 
+  /// What check() throws on all tasks, instead of ending the run, while a step is tried that can be taken again.
+  struct FailedTrial {
+    std::string message;
+  };
+  bool trying = false;
+
   /// The first message of a task counts.
   void report(const std::string &message)
   {
@@ -33,6 +39,7 @@ class CollectiveStop : protected Pointers {
     message_.resize(length);
     MPI_Bcast(message_.data(), length, MPI_CHAR, from, world);
     const std::string text = std::exchange(message_, {});
+    if (trying) throw FailedTrial{text};
     error->all(FLERR, "{}", text);
   }
 

@@ -19,10 +19,9 @@ class LocalCells : protected Pointers {
   struct Cell {
     int index;    ///< among all cells
     const rbc::CellElements *elements;
-    const int *atom;    ///< local index of each vertex, -1 where unknown
-    const rbc::Vec3
-        *offset;         ///< of each vertex, from LAMMPS's position to one near the cell's origin
-    rbc::Vec3 origin;    ///< unwrapped position from which the cell's coordinates count
+    const int *atom;            ///< local index of each vertex, -1 where unknown
+    const rbc::Vec3 *offset;    ///< of each vertex, from LAMMPS's position to one near the origin
+    rbc::Vec3 origin;           ///< unwrapped position from which the cell's coordinates count
     int shared;    ///< number among the cells that several ranks share, -1 if this rank has it all
   };
 
@@ -59,8 +58,7 @@ class LocalCells : protected Pointers {
   std::vector<rbc::Vec3> offsets;
   rbc::CellElements whole;
   std::vector<rbc::CellElements> parts;
-  std::vector<int>
-      shared;    ///< indices of the cells that several ranks share, the same on all ranks
+  std::vector<int> shared;    ///< cells that several ranks share, the same on all ranks
   std::vector<double> buffer;
   std::vector<double> unwrapped;    ///< positions of all atoms here, if there are several ranks
   std::vector<double *> unwrapped_rows;

@@ -144,7 +144,7 @@ void MarkerMotion::update_velocities(Stage stage)
 {
   if (viscous_.empty() || probing) {
     velocities_of_forces(stage);
-    check_velocities();
+    check_velocities(stage);
     return;
   }
 
@@ -177,7 +177,7 @@ void MarkerMotion::update_velocities(Stage stage)
   store(correction_, atom->v);
   for (FixRBCMembrane *membrane : viscous_) membrane->add_viscous_forces(true);
   velocities_of_forces(stage);
-  check_velocities();
+  check_velocities(stage);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -271,19 +271,20 @@ double MarkerMotion::longest_step() const
 
 /* ---------------------------------------------------------------------- */
 
-void MarkerMotion::check_velocities()
+void MarkerMotion::check_velocities(Stage stage)
 {
-  report_too_fast();
+  report_too_fast(stage);
   stop->check();
 }
 
-void MarkerMotion::report_too_fast()
+void MarkerMotion::report_too_fast(Stage stage)
 {
+  const bool any_speed = probing || (timestep_follows && stage == Stage::START);
   const double fastest = courant * fluid_->smallest_spacing() / update->dt;
   double **const v = atom->v;
   for (int i : members_) {
     const double speed2 = v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2];
-    if (std::isfinite(speed2) && (probing || speed2 <= fastest * fastest)) continue;
+    if (std::isfinite(speed2) && (any_speed || speed2 <= fastest * fastest)) continue;
     if (std::isfinite(speed2))
       return report(i,
                     fmt::format("would cross {:.3g} fluid cells in a step (CFL above {}; timestep "

@@ -50,10 +50,11 @@ class MarkerMotion : protected Pointers, public rbc::Motion {
 
   bool is_viscous() const { return !viscous_.empty(); }
 
-  /// Atoms must not cross more fluid cells in a step: checked when they take velocities. They must stay between plates:
-  /// reported only.
+  /// Atoms must not cross more fluid cells in a step: checked when they take velocities, but not those at the start of
+  /// a step whose timestep follows from them. They must stay between plates: reported only.
   double courant = 1;
-  void check_velocities();
+  bool timestep_follows = false;
+  void check_velocities(Stage stage);
   void check_positions();
 
   /// Time in which the fastest atom crosses half of what it may.
@@ -90,7 +91,7 @@ class MarkerMotion : protected Pointers, public rbc::Motion {
   rbc::Numbers applied_, response_;    // of all atoms here
 
   void velocities_of_forces(Stage stage);
-  void report_too_fast();
+  void report_too_fast(Stage stage);
   void resistance(const rbc::Numbers &p, rbc::Numbers &v);
 };
 

@@ -12,15 +12,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 using namespace LAMMPS_NS;
 using rbc::Numbers;
 
-// steps between estimates of the spectral radius, its safety factor, and how far points are displaced for it, over the
-// spacing of the fluid
+// Steps between estimates of the spectral radius: the interval is halved where the radius changes by more than the
+// larger of two parts from one to the next, doubled where it changes by less than the smaller. Its safety factor, and
+// how far points are displaced for it, over the spacing of the fluid.
 
-static constexpr int RADIUS_EVERY = 50;
-static constexpr double RADIUS_SAFETY = 1.06;
+static constexpr int SHORTEST_INTERVAL = 5, LONGEST_INTERVAL = 50;
+static constexpr double STEADY_CHANGE = 0.01, FAST_CHANGE = 0.03;
+static constexpr double RADIUS_SAFETY = 1.06, LARGEST_RADIUS_GROWTH = 1.5;
 static constexpr double RADIUS_DISPLACEMENT = 1.0e-5;
 
 // third order: largest ratio of a timestep to the one before, parts of a step without a past
@@ -50,6 +53,7 @@ void SteadySteps::choose(Method method, int stages, int order, double tolerance,
   control_.smallest = SMALLEST_PART * largest_dt;
   control_.order = method == Method::EULER ? 1 : 2;
   if (chebyshev_.past_steps() > 0) control_.growth = LARGEST_GROWTH;
+  motion_.timestep_follows = control_.active();
 }
 
 int SteadySteps::numbers_per_atom() const
@@ -66,6 +70,8 @@ void SteadySteps::start_run(FixRBCFluid *fluid, bool forces_change)
   forces_change_ = forces_change;
   first_step_ = update->ntimestep;
   radius_step_ = -1;
+  radius_interval_ = SHORTEST_INTERVAL;
+  raw_radius_ = 0;
   rejected_ = 0;
   if (!control_.active()) return;
   const bool changed = update->dt != last_dt_ && !restarted_;    // by the user
@@ -98,9 +104,8 @@ void SteadySteps::advance()
   bool again = false;
   do {
     fluid_->begin_step(again);
-    move();
     again = true;
-  } while (control_.active() && !accept());
+  } while (!attempt());
   motion_.store(position_, atom->x);
   motion_.check_positions();
   motion_.stop->check();
@@ -171,17 +176,17 @@ void SteadySteps::move_ab2()
 
 void SteadySteps::move_chebyshev()
 {
-  if (automatic_stages_ && (radius_step_ < 0 || update->ntimestep >= radius_step_ + RADIUS_EVERY))
+  if (automatic_stages_ &&
+      (radius_step_ < 0 || update->ntimestep >= radius_step_ + radius_interval_))
     estimate_radius();
 
   const int past_steps = chebyshev_.past_steps();
   path_.clear(past_steps);
   const int known = update->dt > LARGEST_GROWTH * past_dt_[0] ? 0 : known_steps_;
-  for (int n = 0; n < known; ++n) {
-    path_.span(n) = past_dt_[n];
-    motion_.load(store_->astore, path_.moved(n), PAST + 3 * n);
+  for (int n = known - 1; n >= 0; --n) {
+    motion_.load(store_->astore, scratch_, PAST + 3 * n);
+    path_.add(past_dt_[n], scratch_);
   }
-  path_.set_steps(known);
   if (known < past_steps) {
     start_chebyshev();
     return;
@@ -231,12 +236,28 @@ void SteadySteps::estimate_radius()
   motion_.probing = true;
   scratch_ = velocity_;
   motion_.velocity(start_, 0, scratch_);
-  radius_ = RADIUS_SAFETY * spectrum_.estimate(motion_, start_, scratch_, size, middle_);
+  const double last =
+      std::exchange(raw_radius_, spectrum_.estimate(motion_, start_, scratch_, size, middle_));
+  foresee_radius(last);
   motion_.probing = false;
   if (!std::isfinite(radius_))
     error->all(FLERR, "{}: the spectral radius is not a number at step {}", style_,
                update->ntimestep);
   motion_.store(middle_, store_->astore, mode_column());
+}
+
+/* ----------------------------------------------------------------------
+   what grows is taken to grow on until the next estimate
+------------------------------------------------------------------------- */
+
+void SteadySteps::foresee_radius(double last)
+{
+  const double ratio = last > 0 ? raw_radius_ / last : 1, change = std::abs(ratio - 1);
+  if (change > FAST_CHANGE)
+    radius_interval_ = std::max(radius_interval_ / 2, SHORTEST_INTERVAL);
+  else if (change < STEADY_CHANGE)
+    radius_interval_ = std::min(2 * radius_interval_, LONGEST_INTERVAL);
+  radius_ = RADIUS_SAFETY * raw_radius_ * std::clamp(ratio, 1.0, LARGEST_RADIUS_GROWTH);
 }
 
 void SteadySteps::choose_stages(double dt)
@@ -278,28 +299,54 @@ void SteadySteps::remember()
 }
 
 /* ----------------------------------------------------------------------
-   whether the local error is within its bound, and the timestep that this error suggests
+   whether a step has a result with an error within its bound; the timestep of the next one, or of this one again
 ------------------------------------------------------------------------- */
 
-bool SteadySteps::accept()
+bool SteadySteps::attempt()
+{
+  if (!control_.active()) {
+    move();
+    return true;
+  }
+
+  std::string flaw;
+  motion_.stop->trying = true;
+  try {
+    move();
+    measure_error();
+    next_dt_ = control_.next(update->dt, local_error_);
+  } catch (const CollectiveStop::FailedTrial &failed) {
+    flaw = failed.message;
+    next_dt_ = control_.after_failure(update->dt);
+    motion_.probing = false;
+  }
+  motion_.stop->trying = false;
+  if (flaw.empty() && local_error_ <= control_.tolerance) return true;
+
+  ++rejected_;
+  radius_step_ = -1;    // modes may have become faster, in contact for example
+  if (next_dt_ < control_.smallest) stop_adapting(flaw);
+  set_timestep(next_dt_, update->ntimestep - 1);
+  return false;
+}
+
+void SteadySteps::measure_error()
 {
   middle_ = velocity_;
   motion_.velocity(position_, 1.0, middle_);
   velocities_known_ = true;
   local_error_ =
       rbc::StepControl::error(motion_, update->dt, start_, position_, velocity_, middle_, scratch_);
-  next_dt_ = control_.next(update->dt, local_error_);
-  if (local_error_ <= control_.tolerance) return true;
+}
 
-  ++rejected_;
-  radius_step_ = -1;    // modes may have become faster, in contact for example
-  if (next_dt_ < control_.smallest)
-    error->all(FLERR,
-               "{}: no timestep above {:.3g} meets the error {:.3g} of adapt at step {}; the local "
-               "error is {:.3g}",
-               style_, control_.smallest, control_.tolerance, update->ntimestep, local_error_);
-  set_timestep(next_dt_, update->ntimestep - 1);
-  return false;
+void SteadySteps::stop_adapting(const std::string &flaw)
+{
+  if (!flaw.empty())
+    error->all(FLERR, "{} (so with all timesteps of adapt, down to {:.3g})", flaw, update->dt);
+  error->all(FLERR,
+             "{}: no timestep above {:.3g} meets the error {:.3g} of adapt at step {}; the local "
+             "error is {:.3g}",
+             style_, control_.smallest, control_.tolerance, update->ntimestep, local_error_);
 }
 
 /* ----------------------------------------------------------------------

@@ -72,13 +72,14 @@ class SteadySteps : protected Pointers {
   bool automatic_stages_ = false;
   rbc::SpectralRadius spectrum_;
   double radius_ = 0;
+  double raw_radius_ = 0;    // the last estimate as it was
   bigint radius_step_ = -1;
+  int radius_interval_ = 0;
 
   rbc::StepControl control_;
   double next_dt_ = 0, local_error_ = 0;
   bool restarted_ = false;
-  bool velocities_known_ =
-      false;    // those at the end of the step, before LAMMPS computed the forces there
+  bool velocities_known_ = false;    // those at the end of the step, before LAMMPS computes forces
   bigint rejected_ = 0;
 
   // Columns: whether the atom has a past; ab2 the velocity at the start of the last step, rkc the displacements in the
@@ -94,9 +95,12 @@ class SteadySteps : protected Pointers {
   void move_chebyshev();
   void start_chebyshev();
   void estimate_radius();
+  void foresee_radius(double last);
   void choose_stages(double dt);
   void remember();
-  bool accept();
+  bool attempt();
+  void measure_error();
+  void stop_adapting(const std::string &flaw);
   void set_timestep(double dt, bigint from_step);
 };
 

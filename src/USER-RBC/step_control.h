@@ -32,6 +32,9 @@ struct StepControl {
     const double wanted = error > 0 ? 0.8 * std::pow(tolerance / error, 1.0 / (order + 1)) : growth;
     return std::min(dt * std::clamp(wanted, 0.1, growth), largest);
   }
+
+  /// Time step after one of dt that had no result.
+  static double after_failure(double dt) { return 0.25 * dt; }
 };
 
 }    // namespace rbc

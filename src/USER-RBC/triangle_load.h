@@ -74,10 +74,9 @@ class TriangleLoad {
  private:
   PlainVector e1_, e2_, normal_;
   double twice_area_;
-  double m11_, m12_, m22_;    ///< metric
-  double s11_ = 0, s12_ = 0,
-         s22_ = 0;    ///< in its plane: -s11 e1 - s12 e2 on corner 1, -s12 e1 - s22 e2 on 2
-  double n0_ = 0, n1_ = 0, n2_ = 0;    ///< along the normal, on each corner
+  double m11_, m12_, m22_;                ///< metric
+  double s11_ = 0, s12_ = 0, s22_ = 0;    ///< in its plane, see corner1() and corner2()
+  double n0_ = 0, n1_ = 0, n2_ = 0;       ///< along the normal, on each corner
 };
 
 }    // namespace rbc

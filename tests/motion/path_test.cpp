@@ -39,10 +39,11 @@ TEST(Path, KeepsTheLastSteps)
   path.clear(2);
   for (int n = 1; n <= 3; ++n) path.add(n, {10.0 * n, 0, 0});
   EXPECT_EQ(path.steps(), 2);
-  EXPECT_EQ(path.moved(0)[0], 30);
-  EXPECT_EQ(path.moved(1)[0], 20);
-  EXPECT_EQ(path.span(1), 2);
-  EXPECT_EQ(path.last_span(), 3);
+  for (auto [t, place] : {std::pair(-3.0, -30.0), std::pair(-5.0, -50.0)}) {
+    Numbers x(3);
+    path.add_to(x, path.place(t), 1);
+    EXPECT_NEAR(x[0], place, 1e-12);
+  }
   path.clear(0);
   path.add(1, {1, 1, 1});
   EXPECT_EQ(path.steps(), 0);

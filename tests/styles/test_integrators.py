@@ -127,6 +127,23 @@ class Adaptive(unittest.TestCase):
         self.assertGreater(thermo["f_ib[8]"][-1], 0)
         np.testing.assert_allclose(np.diff(thermo["Time"]), thermo["f_ib[9]"][1:], rtol=1e-9)
 
+    def test_a_step_that_goes_wrong_is_taken_again(self):
+        # atoms would cross several fluid cells; the step that is taken then has the error that was asked for
+        with self.assertRaises(Failed) as stop:
+            advance("integrator midpoint", 400, 2000, membrane=STIFF)
+        self.assertRegex(stop.exception.result.error, "CFL above 1.*at step 1:")
+        for ranks in (1, 2):
+            with self.subTest(ranks=ranks):
+                first = run(scene(ib=IB + "integrator midpoint adapt 1e-3 1000", timestep="timestep 400", membrane=STIFF,
+                                  thermo="thermo_style custom step time f_ib[7] f_ib[8] f_ib[9]", every="thermo 1",
+                                  dump=dump_line(1), run="run 1"), ranks)
+                step = first.thermo["f_ib[9]"][-1]
+                self.assertEqual(first.thermo["Time"][-1], step)
+                self.assertGreaterEqual(first.thermo["f_ib[8]"][-1], 2)
+                error = apart(first, advance("integrator midpoint", step / 20, step, membrane=STIFF))
+                print(f"\n400 us become {step:.4g}: error {error:.2g} um, estimated {first.thermo['f_ib[7]'][-1]:.2g}")
+                self.assertLess(error, 1e-3)
+
     def test_no_timestep_is_small_enough(self):
         with self.assertRaises(Failed) as stop:
             run(scene(ib=IB + "integrator midpoint adapt 1e-30 1000", run="run 5"))

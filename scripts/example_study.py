@@ -1,0 +1,56 @@
+"""What the study.py of the examples share: their options and how they run the example's script."""
+import argparse
+import csv
+import os
+import subprocess
+
+import numpy as np
+
+TOP = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
+POTENTIALS = os.path.join(TOP, "potentials")
+
+
+def options(description):
+    """Parser of the options that all have."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--lmp", type=os.path.abspath, default=os.path.join(TOP, "build", "lmp_rbc"))
+    parser.add_argument("--ranks", type=int, default=1)
+    parser.add_argument("--only", nargs="*", help="series to run; default all")
+    return parser
+
+
+def wanted(arguments, series):
+    return arguments.only is None or series in arguments.only
+
+
+def run_script(arguments, script, folder, variables, templates=POTENTIALS):
+    """Runs an input script in a folder; a list gives a variable several values. Returns what subprocess.run does."""
+    command = [arguments.lmp, "-in", script, "-log", "none", "-var", "templates", templates]
+    for name, value in variables.items():
+        command += ["-var", name, *map(str, value if isinstance(value, list) else [value])]
+    if arguments.ranks > 1:
+        command = ["mpirun", "-np", str(arguments.ranks), *command]
+    return subprocess.run(command, cwd=folder, check=False, capture_output=True, text=True)
+
+
+def run_cases(arguments, path, columns, cases, run):
+    """{label: rows of numbers} of all (series, label, variables) of `cases`, by run(arguments, variables).
+
+    The CSV file keeps them: what it holds is not run again.
+    """
+    table = {}
+    if os.path.exists(path):
+        with open(path, encoding="utf-8") as file:
+            for row in csv.DictReader(file):
+                table.setdefault(row["case"], []).append([float(row[name]) for name in columns])
+    for series, label, variables in cases:
+        if label in table or not wanted(arguments, series):
+            continue
+        print(label, flush=True)
+        table[label] = run(arguments, variables)
+        with open(path, "w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(["case", *columns])
+            for name, rows in table.items():
+                writer.writerows([name, *(f"{value:.8g}" for value in row)] for row in rows)
+    return {label: np.array(rows) for label, rows in table.items()}
