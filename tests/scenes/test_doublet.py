@@ -1,5 +1,5 @@
 """Two adhered cells on a coarse grid: flat contact where adhesion is weak, S-shaped where it is strong (Ziherl and Svetina,
-Europhys Lett 70, 690, 2005; Flormann et al., Sci Rep 7, 7928, 2017), no surface inside the other, at rest in plasma."""
+PNAS 104, 761, 2007; Flormann et al., Sci Rep 7, 7928, 2017), no surface inside the other, at rest in plasma."""
 
 import unittest
 
