@@ -95,18 +95,26 @@ void NearTriangles::Spheres::set(int n, PlainVector centre, double r, Surface s,
 void NearTriangles::build(int points, const Surface *surfaces, int corners, const double *x,
                           const std::vector<Triangle> &triangles, double range, double slack)
 {
+  surfaces_.assign(surfaces, surfaces + points);
   triangles_ = triangles;
-  built_.assign(x, x + 3 * std::size_t(corners));
+  reach_ = range + slack;
   build_fans(corners);
-  const double reach = range + slack, far = reach + bound_triangles(x);
-  const Bins bins(x, corners, far);
+  corners_ = corners;
+  rebuild(x);
+}
+
+void NearTriangles::rebuild(const double *x)
+{
+  built_.hold(x, corners_);
+  const double far = reach_ + bound_triangles(x);
+  const Bins bins(x, corners_, far);
   sort_spheres(bins);
 
   groups_.clear();
   candidates_.clear();
-  for (int n = 0; n < points; ++n) {
-    find_hits(bins, at(x, n), surfaces[n], reach, far);
-    add_candidates(x, n, reach);
+  for (int n = 0; n < static_cast<int>(surfaces_.size()); ++n) {
+    find_hits(bins, at(x, n), surfaces_[n], far);
+    add_candidates(x, n);
   }
 }
 
@@ -151,8 +159,7 @@ void NearTriangles::sort_spheres(const Bins &bins)
    triangles whose spheres are in reach of a point: those of a row of bins follow each other
 ------------------------------------------------------------------------- */
 
-void NearTriangles::find_hits(const Bins &bins, PlainVector p, Surface own, double reach,
-                              double far)
+void NearTriangles::find_hits(const Bins &bins, PlainVector p, Surface own, double far)
 {
   hits_.clear();
   const int j0 = bins.along(1, p.y - far), j1 = bins.along(1, p.y + far);
@@ -174,7 +181,7 @@ void NearTriangles::find_hits(const Bins &bins, PlainVector p, Surface own, doub
         const Surface *const surface = &spheres_.surface[first];
         for_each(count, [&](int n) {
           const double apart2 = square(x[n] - p.x) + square(y[n] - p.y) + square(z[n] - p.z);
-          hit[n] = (apart2 <= square(reach + radius[n])) & (surface[n] != own);
+          hit[n] = (apart2 <= square(reach_ + radius[n])) & (surface[n] != own);
         });
         for (int n = 0; n < count; ++n)
           if (hit[n]) hits_.push_back(spheres_.triangle[first + n]);
@@ -182,7 +189,7 @@ void NearTriangles::find_hits(const Bins &bins, PlainVector p, Surface own, doub
     }
 }
 
-void NearTriangles::add_candidates(const double *x, int point, double reach)
+void NearTriangles::add_candidates(const double *x, int point)
 {
   const PlainVector p = at(x, point);
   const std::size_t first = candidates_.size();
@@ -191,7 +198,7 @@ void NearTriangles::add_candidates(const double *x, int point, double reach)
     const PlainVector a = at(x, triangle.corner[0]), b = at(x, triangle.corner[1]),
                       c = at(x, triangle.corner[2]);
     const double distance = norm(p - weighted_point(closest_point_weights(p, a, b, c), a, b, c));
-    if (distance <= reach) candidates_.push_back({triangle.surface, distance, t});
+    if (distance <= reach_) candidates_.push_back({triangle.surface, distance, t});
   }
   std::sort(candidates_.begin() + first, candidates_.end(),
             [](const Candidate &a, const Candidate &b) {
@@ -214,29 +221,6 @@ void NearTriangles::build_fans(int corners)
   next_.assign(fan_begin_.begin(), fan_begin_.end() - 1);
   for (std::size_t t = 0; t < triangles_.size(); ++t)
     for (int v : triangles_[t].corner) fans_[next_[v]++] = static_cast<int>(t);
-}
-
-double NearTriangles::largest_displacement(const double *x) const
-{
-  double largest2 = 0;
-  for (std::size_t n = 0; n < built_.size(); n += 3) {
-    const PlainVector moved = at(x, n / 3) - at(built_.data(), n / 3);
-    largest2 = std::max(largest2, dot(moved, moved));
-  }
-  return std::sqrt(largest2);
-}
-
-int NearTriangles::furthest_moved(const double *x) const
-{
-  int furthest = -1;
-  double largest2 = -1;
-  for (int n = 0; n < static_cast<int>(built_.size() / 3); ++n) {
-    const PlainVector moved = at(x, n) - at(built_.data(), n);
-    if (dot(moved, moved) <= largest2) continue;
-    largest2 = dot(moved, moved);
-    furthest = n;
-  }
-  return furthest;
 }
 
 /* ----------------------------------------------------------------------
@@ -317,8 +301,8 @@ std::size_t NearTriangles::bytes() const
   std::size_t integers = 0;
   for (const auto *numbers : {&fan_begin_, &fans_, &bin_begin_, &bin_of_, &next_, &hits_})
     integers += numbers->capacity();
-  return integers * sizeof(int) + triangles_.capacity() * sizeof(Triangle) +
-         built_.capacity() * sizeof(double) +
+  return integers * sizeof(int) + surfaces_.capacity() * sizeof(Surface) +
+         triangles_.capacity() * sizeof(Triangle) + built_.bytes() +
          bounds_.capacity() *
              (sizeof(Sphere) + 4 * sizeof(double) + sizeof(Surface) + sizeof(int)) +
          groups_.capacity() * sizeof(Group) + candidates_.capacity() * sizeof(Candidate) +

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "held_positions.h"
 #include "plain_vector.h"
 
 #include <array>
@@ -34,14 +35,14 @@ class NearTriangles {
   void build(int points, const Surface *surfaces, int corners, const double *x,
              const std::vector<Triangle> &triangles, double range, double slack);
 
-  /// Largest distance that a corner moved since build().
-  double largest_displacement(const double *x) const;
+  /// The same again for other positions.
+  void rebuild(const double *x);
 
-  /// The corner that moved furthest, -1 if there is none.
-  int furthest_moved(const double *x) const;
+  /// Largest distance that a corner moved since that.
+  double largest_displacement(const double *x) const { return built_.largest_displacement(x); }
 
   /// All points nearer than range to a surface: one contact for each such surface. `moved` is the largest
-  /// displacement since build().
+  /// displacement since the last build or rebuild.
   const std::vector<Contact> &contacts(const double *x, double range, double moved);
 
   std::size_t bytes() const;
@@ -71,10 +72,13 @@ class NearTriangles {
     void set(int n, PlainVector centre, double radius, Surface surface, int triangle);
   };
 
+  double reach_ = 0;
+  std::vector<Surface> surfaces_;    // of points
   std::vector<Triangle> triangles_;
   std::vector<int> fan_begin_, fans_;    // triangles around each corner
-  std::vector<double> built_;            // positions
-  std::vector<Sphere> bounds_;           // of each triangle
+  HeldPositions built_;
+  int corners_ = 0;
+  std::vector<Sphere> bounds_;    // of each triangle
   Spheres spheres_;
   std::vector<int> bin_begin_, bin_of_, next_, hits_;
   std::vector<Group> groups_;
@@ -86,8 +90,8 @@ class NearTriangles {
   void build_fans(int corners);
   double bound_triangles(const double *x);
   void sort_spheres(const Bins &bins);
-  void find_hits(const Bins &bins, PlainVector point, Surface own, double reach, double far);
-  void add_candidates(const double *x, int point, double reach);
+  void find_hits(const Bins &bins, PlainVector point, Surface own, double far);
+  void add_candidates(const double *x, int point);
   PlainVector outward(const double *x, const std::array<int, 3> &corner,
                       const std::array<double, 3> &weight, PlainVector face) const;
 };

@@ -254,11 +254,12 @@ void PairRBCJKR::setup()
       if (!setflag[i][j] || !tip(i, j).touches()) continue;
       const TipContact &contact = tip(i, j);
       const double gap = contact.tip_radius() - contact.equilibrium();
-      const double stress = contact.pull_off() / contact.tip_area();
       utils::logmesg(lmp,
                      "Pair rbc/jkr, types {} {}: gap {:.6g} at rest, range {:.6g}, work per area "
-                     "{:.6g}, largest stress of adhesion {:.6g}\n",
-                     i, j, gap, range_of(i, j), work[i][j], stress);
+                     "{:.6g}, stress of adhesion up to {:.6g}, of repulsion {:.6g} where surfaces "
+                     "meet\n",
+                     i, j, gap, range_of(i, j), work[i][j], contact.pull_off() / contact.tip_area(),
+                     contact.per_area(contact.tip_radius()).traction);
     }
 }
 

@@ -15,6 +15,10 @@ using namespace LAMMPS_NS;
 
 static constexpr double STRETCH = 1.5;
 
+// the finder looks no further than this part of what ghosts allow, and once more on the way: lists are shorter by far
+
+static constexpr double FINER = 0.25;
+
 /* ---------------------------------------------------------------------- */
 
 NearSurfaces::NearSurfaces(LAMMPS *lmp, std::string style) :
@@ -96,10 +100,12 @@ double NearSurfaces::longest_known_edge(double range, double slack) const
   return longest;
 }
 
-void NearSurfaces::build(double range, double slack)
+void NearSurfaces::build(double range, double slack_of_ghosts)
 {
-  built_slack = slack;
-  collect_triangles(longest_known_edge(range, slack));
+  allowed = slack_of_ghosts / 2;
+  built.hold(atom->x[0], atom->nlocal + atom->nghost);
+  slack = FINER * slack_of_ghosts;
+  collect_triangles(longest_known_edge(range, slack_of_ghosts));
   stop.check();
   owners.resize(atom->nlocal);
   int points = 0;
@@ -156,30 +162,36 @@ int NearSurfaces::image_near(int i, tagint id, double longest) const
 
 const std::vector<NearSurfaces::Contact> &NearSurfaces::contacts(double range)
 {
-  const double moved = finder.largest_displacement(atom->x[0]);
-  if (!(2 * moved <= built_slack)) report_moved(moved);
-  stop.check();
+  check_moved();
+  double moved = finder.largest_displacement(atom->x[0]);
+  if (2 * moved > slack) {
+    finder.rebuild(atom->x[0]);
+    moved = 0;
+  }
   return finder.contacts(atom->x[0], range, moved);
 }
 
-void NearSurfaces::report_moved(double distance)
+void NearSurfaces::check_moved()
 {
-  const int i = finder.furthest_moved(atom->x[0]);
-  const double *const x = atom->x[i];
-  stop.report(fmt::format(
-      "{}: vertices moved by up to {:.4g} since step {}, when their neighbors were found, more "
-      "than "
-      "{:.6g}, at step {}: cell with molecule ID {} near ({:.6g}, {:.6g}, {:.6g}); raise the skin "
-      "with the neighbor command, or lower the timestep",
-      style, distance, neighbor->lastcall, built_slack / 2, update->ntimestep, atom->molecule[i],
-      x[0], x[1], x[2]));
+  const double moved = built.largest_displacement(atom->x[0]);
+  if (!(moved <= allowed)) {
+    const int i = built.furthest_moved(atom->x[0]);
+    const double *const x = atom->x[i];
+    stop.report(fmt::format(
+        "{}: vertices moved by up to {:.4g} since step {}, when their neighbors were found, more "
+        "than {:.6g}, at step {}: cell with molecule ID {} near ({:.6g}, {:.6g}, {:.6g}); raise "
+        "the skin with the neighbor command, or lower the timestep",
+        style, moved, neighbor->lastcall, allowed, update->ntimestep, atom->molecule[i], x[0], x[1],
+        x[2]));
+  }
+  stop.check();
 }
 
 /* ---------------------------------------------------------------------- */
 
 double NearSurfaces::bytes() const
 {
-  return static_cast<double>(finder.bytes()) +
+  return static_cast<double>(finder.bytes() + built.bytes()) +
          triangles.capacity() * sizeof(rbc::NearTriangles::Triangle) +
          owners.capacity() * sizeof(rbc::NearTriangles::Surface) + cells.capacity() * sizeof(Cell);
 }

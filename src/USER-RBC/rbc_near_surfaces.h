@@ -62,13 +62,15 @@ class NearSurfaces : protected Pointers {
   rbc::NearTriangles finder;
   std::vector<rbc::NearTriangles::Triangle> triangles;
   std::vector<rbc::NearTriangles::Surface> owners;
-  double built_slack = 0;
+  rbc::HeldPositions built;    ///< positions at build()
+  double allowed = 0;          ///< displacement since then
+  double slack = 0;            ///< of the finder
 
   const Cell *cell_of(int i) const;
   const Shape *shape_of(int i) const;
   double longest_known_edge(double range, double slack) const;
   void collect_triangles(double longest);
-  void report_moved(double distance);
+  void check_moved();
   int image_near(int i, tagint id, double longest) const;
 };
 

@@ -98,6 +98,26 @@ TEST_P(Finder, AgreesWithAllDistancesAndSolidAngles)
   }
 }
 
+TEST_P(Finder, RebuiltForOtherPositions)
+{
+  Cells cells(GetParam());
+  NearTriangles finder, anew;
+  finder.build(cells.size(), cells.surfaces.data(), cells.size(), cells.data(), cells.triangles,
+               range, slack);
+  cells.move(0.2, 8);
+  finder.rebuild(cells.data());
+  EXPECT_EQ(finder.largest_displacement(cells.data()), 0);
+  anew.build(cells.size(), cells.surfaces.data(), cells.size(), cells.data(), cells.triangles,
+             range, slack);
+  const auto &found = finder.contacts(cells.data(), range, 0);
+  const auto &expected = anew.contacts(cells.data(), range, 0);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t n = 0; n < found.size(); ++n) {
+    EXPECT_EQ(found[n].point, expected[n].point);
+    EXPECT_EQ(found[n].gap, expected[n].gap);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Shapes, Finder, testing::Values(1, 2, 3, 4, 5, 6));
 
 TEST(Finder, PointOnTheSurface)
@@ -124,16 +144,16 @@ TEST(Finder, PointOnTheSurface)
   }
 }
 
-TEST(Finder, TellsWhatMovedFurthest)
+TEST(HeldPositions, FurthestMoved)
 {
   test::Mesh mesh = test::icosphere(2);
-  const int corners = static_cast<int>(mesh.vertices.size());
-  NearTriangles finder;
-  finder.build(0, nullptr, corners, mesh.vertices[0].data(), {}, range, slack);
+  rbc::HeldPositions held;
+  EXPECT_EQ(held.furthest_moved(nullptr), -1);
+  held.hold(mesh.vertices[0].data(), static_cast<int>(mesh.vertices.size()));
   mesh.vertices[3][0] += 0.1;
   mesh.vertices[5][1] -= 0.2;
-  EXPECT_EQ(finder.furthest_moved(mesh.vertices[0].data()), 5);
-  EXPECT_NEAR(finder.largest_displacement(mesh.vertices[0].data()), 0.2, 1e-15);
+  EXPECT_EQ(held.furthest_moved(mesh.vertices[0].data()), 5);
+  EXPECT_NEAR(held.largest_displacement(mesh.vertices[0].data()), 0.2, 1e-15);
 }
 
 TEST(Finder, NothingNear)
@@ -141,7 +161,6 @@ TEST(Finder, NothingNear)
   NearTriangles finder;
   finder.build(0, nullptr, 0, nullptr, {}, range, slack);
   EXPECT_EQ(finder.largest_displacement(nullptr), 0);
-  EXPECT_EQ(finder.furthest_moved(nullptr), -1);
   EXPECT_TRUE(finder.contacts(nullptr, range, 0).empty());
 }
 

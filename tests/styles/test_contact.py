@@ -136,6 +136,42 @@ class Forces(unittest.TestCase):
         np.testing.assert_allclose(energy[::-1], energy, atol=1e-11 * abs(energy).max(), rtol=0)
 
 
+class InPlasma(unittest.TestCase):
+    """Forces within steps too, with ghosts that have moved: a cell is carried off from another in shear."""
+
+    STEPS = 150
+
+    def carried(self, ranks=1, integrator="midpoint", **changes):
+        box = "region box block 0 18 0 12 0 12"
+        walls = " wall zlo -0.0012 0 0 wall zhi 0.0012 0 0"    # 200/s
+        return run(contact(
+            boundary="boundary p p f", box=box, neighbor="neighbor 0.6 bin",
+            cells="rbc/create rbc single 7 6 7.3 rotate 4 1 0.5 0\nrbc/create rbc single 7.4 6 4.5",
+            membrane="fix mem all rbc/membrane rbc mooney-rivlin 0.257 0.0257 0.01 bending 2.0e-4 volume yes",
+            fluid="fix flow all rbc/fluid dx 1.0 viscosity 1.5 density 1.025 inertia none" + walls,
+            ib=f"fix ib all rbc/ib flow integrator {integrator}", every="thermo 10",
+            thermo="thermo_style custom step c_pe c_contact[1]", dump=dump_line(self.STEPS), timestep="timestep 200",
+            run=f"run {self.STEPS}", **changes), ranks)
+
+    def test_ranks_and_newton(self):
+        for integrator in ("midpoint", "rkc 4"):
+            alone = self.carried(integrator=integrator)
+            self.assertGreater(np.ptp(alone.thermo["c_contact[1]"]), 3)
+            x = alone.dump().positions()
+            for ranks, newton in ((1, "newton off"), (2, "newton on"), (4, "newton off"), (4, "newton on")):
+                with self.subTest(integrator, ranks=ranks, newton=newton):
+                    result = self.carried(ranks, integrator, newton=newton)
+                    apart = abs(result.dump().positions() - x).max() / 7.82
+                    print(f"\n{integrator}, {ranks} ranks, {newton}: {apart:.2g} diameters apart")
+                    self.assertLess(apart, 1e-11)
+                    np.testing.assert_allclose(result.thermo["c_pe"], alone.thermo["c_pe"], rtol=0,
+                                               atol=1e-9 * abs(alone.thermo["c_pe"]).max())
+
+    def test_the_step_cost_has_its_rows(self):
+        printed = self.carried().printed
+        self.assertRegex(printed, r"(?s)Membrane  .*Detection  .*Contact  .*Spread  .*Total")
+
+
 class Equation7(unittest.TestCase):
     def test_pair_write(self):
         result = run(contact(dump=None, run="run 0\npair_write 1 1 200 r 0.01 0.3825 table.txt tip"))
