@@ -146,7 +146,7 @@ void ComputeRBCAggregate::find_aggregates()
 
 std::vector<TouchedShare> ComputeRBCAggregate::touched_here()
 {
-  near.build(gap, neighbor->skin);
+  near.build(gap, 0, neighbor->skin);
   const Surface surface = surface_here();
   std::vector<TouchedShare> touched;
   for (const NearSurfaces::Contact &contact : near.contacts(gap)) {

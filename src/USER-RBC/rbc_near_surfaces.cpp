@@ -96,10 +96,10 @@ double NearSurfaces::longest_known_edge(double range, double slack) const
   return longest;
 }
 
-void NearSurfaces::build(double range, double slack)
+void NearSurfaces::build(double range, double slack, double stale)
 {
   built_slack = slack;
-  collect_triangles(longest_known_edge(range, slack));
+  collect_triangles(longest_known_edge(range, slack + stale));
   stop.check();
   owners.resize(atom->nlocal);
   int points = 0;
