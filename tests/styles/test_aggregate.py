@@ -328,6 +328,19 @@ fix         out all rbc/vtk 1 cells.*.vtp aggregate agg"""
                 np.testing.assert_array_equal(histogram(result.path("shares.dat")),
                                               np.histogram(classes[:, 2], 4, (0, 1))[0])
 
+    def test_rerun_finds_the_same_in_a_dump(self):
+        again = "undump atoms\nrerun atoms.dump dump x y z ix iy iz"
+        for ranks in (1, 2):
+            with self.subTest(ranks=ranks):
+                result = run(aggregate_scene(
+                    GAP, cells="rbc/create rbc number 10 seed 3 overlap 0.2 attempts 20000", timestep="timestep 0.5",
+                    last="group first molecule 1:3\nvelocity first set 0.5 0 0\nfix fly all nve", every="thermo 5",
+                    dump=dump_line(5, columns="id type x y z ix iy iz"), run="run 40\n" + again), ranks)
+                first, second = result.tables()
+                self.assertGreater(len(set(first["c_agg[1]"])), 1)
+                for name, values in first.items():
+                    np.testing.assert_array_equal(second[name], values)
+
 
 if __name__ == "__main__":
     unittest.main()
