@@ -146,7 +146,7 @@ void ComputeRBCAggregate::find_aggregates()
 
 std::vector<TouchedShare> ComputeRBCAggregate::touched_here()
 {
-  near.build(gap, neighbor->skin);
+  near.build(gap, 0, neighbor->skin);
   const Surface surface = surface_here();
   std::vector<TouchedShare> touched;
   for (const NearSurfaces::Contact &contact : near.contacts(gap)) {
@@ -157,12 +157,13 @@ std::vector<TouchedShare> ComputeRBCAggregate::touched_here()
   rbc::add_up(touched);
 
   rbc::DisjointSets joined(cells.size());
-  const auto adds_nothing = [&](const TouchedShare &pair) {
-    if (least_share > 0 && surface.split[pair.cell]) return false;
-    return pair.share < least_share || !joined.unite(pair.cell, pair.other);
-  };
-  touched.erase(std::remove_if(touched.begin(), touched.end(), adds_nothing), touched.end());
-  return touched;
+  std::vector<TouchedShare> needed;
+  for (const TouchedShare &pair : touched) {
+    const bool undecided = least_share > 0 && surface.split[pair.cell];
+    if (undecided || (pair.share >= least_share && joined.unite(pair.cell, pair.other)))
+      needed.push_back(pair);
+  }
+  return needed;
 }
 
 /* ----------------------------------------------------------------------

@@ -100,12 +100,12 @@ double NearSurfaces::longest_known_edge(double range, double slack) const
   return longest;
 }
 
-void NearSurfaces::build(double range, double slack_of_ghosts)
+void NearSurfaces::build(double range, double slack_of_ghosts, double stale)
 {
   allowed = slack_of_ghosts / 2;
   built.hold(atom->x[0], atom->nlocal + atom->nghost);
   slack = FINER * slack_of_ghosts;
-  collect_triangles(longest_known_edge(range, slack_of_ghosts));
+  collect_triangles(longest_known_edge(range, slack_of_ghosts + stale));
   stop.check();
   owners.resize(atom->nlocal);
   int points = 0;

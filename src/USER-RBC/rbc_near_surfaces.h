@@ -30,9 +30,10 @@ class NearSurfaces : protected Pointers {
   /// An error if ghosts do not reach far enough for build().
   void check_ghosts(double range, double slack) const { longest_known_edge(range, slack); }
 
-  /// Collective, with ghosts at their places: finds what comes nearer than `range` before atoms moved by slack / 2. The
-  /// ghost cutoff must be the sum of range, slack and longest_edge() at least.
-  void build(double range, double slack);
+  /// Collective, with ghosts at their places: finds what comes nearer than `range` before atoms moved by slack / 2.
+  /// Since ghosts were chosen they may have moved by stale / 2. The ghost cutoff must be the sum of range, slack, stale
+  /// and longest_edge() at least.
+  void build(double range, double slack, double stale = 0);
 
   /// Collective, for positions that ghosts have too: one contact for each owned vertex and other cell nearer to it than
   /// `range`, at most that of build().
