@@ -172,7 +172,7 @@ void CellPacking::find_neighbours()
 bool CellPacking::neighbours_are_old() const
 {
   const double farthest = *std::max_element(moved_.begin(), moved_.end());
-  return 2 * farthest + 2.5 * radius_ * grown_ > reach() - clearance();
+  return 2 * farthest + (2 * radius_ + reach()) * grown_ > reach() - clearance();
 }
 
 /* ----------------------------------------------------------------------
