@@ -14,9 +14,8 @@ class CellApproach {
 
   bool empty() const { return vertices_.empty(); }
 
-  /// On the probe, gradient of the energy sum (clearance - distance)^2 / 2 over the vertices, and the points of edges
-  /// closest to the body, that are nearer than `clearance`. On the body the same acts in the other direction at the same
-  /// places.
+  /// On the probe: down the energy (clearance - distance)^2 / 2, summed over the vertices, and the points of edges
+  /// closest to the body, that are nearer than `clearance`. The body is pushed the other way at the same places.
   void push(const RigidCell &probe, const RigidCell &body, double clearance, Push &push) const;
 
  private:

@@ -172,37 +172,39 @@ void CellPacking::find_neighbours()
 bool CellPacking::neighbours_are_old() const
 {
   const double farthest = *std::max_element(moved_.begin(), moved_.end());
-  return 2 * farthest + 2.5 * radius_ * grown_ > reach() - clearance();
+  return 2 * farthest + (2 * radius_ + reach()) * grown_ > reach() - clearance();
 }
 
 /* ----------------------------------------------------------------------
    of walls, the enclosure and points
 ------------------------------------------------------------------------- */
 
+void CellPacking::push_from_walls(const Vec3 &arm, const Vec3 &x, Push &push) const
+{
+  const double distance = gap_ / 2 + margin_;
+  for (int d = 0; d < 3; ++d) {
+    if (box_.periodic[d]) continue;
+    const double low = distance - (x[d] - box_.lo[d]) / size_,
+                 high = distance - (box_.lo[d] + box_.length[d] - x[d]) / size_;
+    if (low > 0) push.add(arm, low * Vec3::Unit(d), low);
+    if (high > 0) push.add(arm, -high * Vec3::Unit(d), high);
+  }
+}
+
 Push CellPacking::outer_push(const Single &single) const
 {
   const RigidCell &cell = cells_[single.cell];
+  const bool near_wall = box_.clearance(cell.centre) < size_ * (cell.shape->radius + clearance());
   Push push;
-  const double far = size_ * (cell.shape->radius + clearance());
-  const bool near_wall = box_.clearance(cell.centre) < far;
-  if (near_wall || enclosure_)
-    for (int v = 0; v < cell.shape->surface.size(); ++v) {
-      const Vec3 arm = cell.turn * cell.shape->surface.vertices[v];
-      const Vec3 x = cell.centre + size_ * arm;
-      for (int d = 0; near_wall && d < 3; ++d) {
-        if (box_.periodic[d]) continue;
-        const double from_lo = (x[d] - box_.lo[d]) / size_, width = box_.length[d] / size_;
-        const double low = gap_ / 2 + margin_ - from_lo,
-                     high = gap_ / 2 + margin_ - width + from_lo;
-        if (low > 0) push.add(arm, low * Vec3::Unit(d), low);
-        if (high > 0) push.add(arm, -high * Vec3::Unit(d), high);
-      }
-      if (!enclosure_) continue;
-      const Vec3 beyond = x + size_ * margin_ * arm.normalized();
-      const auto excess = enclosure_->excess(anchors_[single.cell], beyond);
-      if (excess.depth > 0)
-        push.add(arm, excess.depth / size_ * excess.inward, excess.depth / size_);
-    }
+  for (int v = 0; (near_wall || enclosure_) && v < cell.shape->surface.size(); ++v) {
+    const Vec3 arm = cell.turn * cell.shape->surface.vertices[v];
+    const Vec3 x = cell.centre + size_ * arm;
+    if (near_wall) push_from_walls(arm, x, push);
+    if (!enclosure_) continue;
+    const Vec3 beyond = x + size_ * margin_ * arm.normalized();
+    const auto [depth, inward] = enclosure_->excess(anchors_[single.cell], beyond);
+    if (depth > 0) push.add(arm, depth / size_ * inward, depth / size_);
+  }
   for (const Vec3 &point : single.points) {
     const auto [distance, gradient] = cell.shape->field.at(cell.body(point));
     const double depth = clearance() - distance;

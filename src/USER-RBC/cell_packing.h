@@ -94,6 +94,7 @@ class CellPacking {
   void find_neighbours();
   bool neighbours_are_old() const;
   std::vector<Push> pushes();
+  void push_from_walls(const Vec3 &arm, const Vec3 &x, Push &push) const;
   Push outer_push(const Single &single) const;
   void move(const std::vector<double> &moves);
   void resize(double size);

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int spacings_per_radius = 32;
 
-/// Distance to a surface and the side, by the normals of the closest face, edge or corner. Those of corners are weighted
-/// with the angles of the faces: Baerentzen and Aanaes, IEEE Trans Vis Comput Graph 11, 243 (2005).
+/// Distance to a surface and the side, by the normals of the closest face, edge or corner. Those of corners are
+/// weighted with the angles of the faces: Baerentzen and Aanaes, IEEE Trans Vis Comput Graph 11, 243 (2005).
 class ExactDistance {
  public:
   explicit ExactDistance(const SurfaceTemplate &surface) :

@@ -158,7 +158,8 @@ class Random(unittest.TestCase):
                             "region narrows cone x 12 10 9.5 6.5 10 15", "region widens cone x 12 10 6.5 9.5 15 20",
                             "region throat union 2 narrows widens"])
         for region, hematocrit, inside, size in (
-                ("block 10 25 2 20 1 19", 0.3, lambda x: ((x >= (10, 2, 1)) & (x <= (25, 20, 19))).all(), 15 * 18 * 18),
+                ("block 10 25 2 20 1 19", 0.3, lambda x: ((x >= (10, 2, 1)) & (x <= (25, 20, 19))).all(),
+                 15 * 18 * 18),
                 ("cylinder z 15 12 9 0 20", 0.3, lambda x: (np.hypot(x[:, 0] - 15, x[:, 1] - 12) <= 9).all(),
                  np.pi * 81 * 20),
                 ("sphere 15 12 10 8 side out", 0.15,
@@ -169,7 +170,8 @@ class Random(unittest.TestCase):
                  lambda x: (np.hypot(x[:, 1] - 12, x[:, 2] - 10) <= 9.5 - 3 * (1 - abs(x[:, 0] % 30 - 15) / 5).clip(0)
                             + 1e-9).all(), np.pi * (9.5**2 * 20 + (9.5**2 + 6.5**2 + 9.5 * 6.5) / 3 * 10))):
             with self.subTest(region):
-                dump = created(f"{vessel}\nregion part {region}\nrbc/create rbc hematocrit {hematocrit} seed 5 region part", 2,
+                dump = created(f"{vessel}\nregion part {region}\n"
+                               f"rbc/create rbc hematocrit {hematocrit} seed 5 region part", 2,
                                boundary="boundary p p p").dump()
                 number = len(dump("id")) // 162
                 self.assertAlmostEqual(number, hematocrit * size / volume(POINTS, TRIANGLES), delta=0.7)
@@ -190,7 +192,8 @@ class Random(unittest.TestCase):
         np.testing.assert_array_equal(dumps[0].positions(), dumps[1].positions())
         dump = dumps[0]
         np.testing.assert_array_equal(dump("mol"), np.repeat(np.arange(1, 38), [162] * 6 + [1] + [162] * 30))
-        atoms = [(x + [(0, 0, 0)] * 3 + 1e-9 * np.eye(3), np.array([[0, 1, 2]])) for x in dump.positions()[:6 * 162 + 1]]
+        dots = 1e-9 * np.eye(3)
+        atoms = [(x + dots, np.array([[0, 1, 2]])) for x in dump.positions()[:6 * 162 + 1]]
         cells = [(x, TRIANGLES) for x in dump.positions()[6 * 162 + 1:].reshape(30, 162, 3)]
         for atom in atoms[::20] + atoms[-1:]:
             self.assertGreaterEqual(least_gap([atom, *cells], BOX, (True, True, False), 1), 0.4 - 1e-8)
