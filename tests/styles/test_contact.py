@@ -125,6 +125,15 @@ class Forces(unittest.TestCase):
                     dump = run(contact(coeff, pair, **two)).dump()
                     np.testing.assert_allclose(dump.forces(), expected, atol=1e-13 * abs(both).max(), rtol=0)
 
+    def test_two_laws_overlaid(self):
+        single = sum(run(contact(coeff)).dump().forces() for coeff in (ADHESIVE, REPULSIVE))
+        both = run(contact(ADHESIVE.replace("adhesive", "rbc/jkr 1 adhesive") + "\n" +
+                           REPULSIVE.replace("repulsive", "rbc/jkr 2 repulsive"),
+                           "pair_style hybrid/overlay rbc/jkr 0.5 rbc/jkr 0.3",
+                           compute=COMPUTES.replace("compute contact all pair rbc/jkr",
+                                                    "compute contact all pair rbc/jkr 1"))).dump().forces()
+        np.testing.assert_allclose(both, single, atol=1e-13 * abs(single).max(), rtol=0)
+
     def test_leaving_and_coming_back_loses_nothing(self):
         steps = [0.06] * 25 + [-0.06] * 25
         lines = ["group upper molecule 2", "run 0 post no"]
