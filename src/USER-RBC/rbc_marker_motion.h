@@ -56,6 +56,8 @@ class MarkerMotion : protected Pointers, public rbc::Motion {
   void check_velocities();
   void check_positions();
 
+  double fastest() const;
+
   /// Time in which the fastest atom crosses half of what it may.
   double longest_step() const;
   double *rows(double **array) const { return members_.empty() ? nullptr : array[0]; }
@@ -91,6 +93,8 @@ class MarkerMotion : protected Pointers, public rbc::Motion {
 
   void velocities_of_forces(Stage stage);
   void report_too_fast();
+  void find_residual();
+  void correct_forces();
   void resistance(const rbc::Numbers &p, rbc::Numbers &v);
 };
 
