@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Relaxation of a stretched red cell for several viscosities of its membrane, beside the cells of Hochmuth et al. (1979).
 
-Runs in.relaxation (about 5 minutes each on one core), writes relaxation.csv, draws relaxation.png and prints
-the time constants. With --draw only the picture and the numbers, from relaxation.csv.
+Runs in.relaxation (2 to 5 minutes each on one core) for all cases, or those named with --case, keeps the curves in
+relaxation.csv, draws relaxation.png and prints the time constants. With --draw only the picture and the numbers.
 """
 
 import argparse
@@ -18,7 +18,8 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 REFERENCE = HERE.parent / "reference" / "01g_relaxation_hochmuth1979.csv"
-VISCOSITIES = (300, 600, 900)
+TABLE = HERE / "relaxation.csv"
+LABELS = {"thinning": "healthy.material: η_m falls", "300": "η_m = 300 pg/µs", "600": "η_m = 600 pg/µs", "900": "η_m = 900 pg/µs"}
 
 
 def curve(t, parameters):
@@ -39,11 +40,12 @@ def fit(t, ratio):
     return p
 
 
-def measure(lmp, templates, viscosity):
+def measure(lmp, templates, case):
+    constant = [] if case == "thinning" else ["-var", "surface_viscosity", case, "-var", "fast_viscosity", case]
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([lmp, "-in", HERE / "in.relaxation", "-log", "none", "-screen", "none", "-var",
-                        "surface_viscosity", str(viscosity), "-var", "templates", templates], cwd=folder, check=True)
-        return [(f"eta_m {viscosity}", *row) for row in np.loadtxt(Path(folder) / "relaxation.dat")[:, :2]]
+        subprocess.run([lmp, "-in", HERE / "in.relaxation", "-log", "none", "-screen", "none", "-var", "templates", templates,
+                        *constant], cwd=folder, check=True)
+        return np.loadtxt(Path(folder) / "relaxation.dat")[:, :2].T
 
 
 def read(path):
@@ -57,14 +59,15 @@ def read(path):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--lmp", default=HERE.parents[1] / "build" / "lmp_rbc")
+    parser.add_argument("--case", action="append", choices=LABELS, help="measure this case only")
     parser.add_argument("--draw", action="store_true", help="do not run")
     options = parser.parse_args()
-    table = HERE / "relaxation.csv"
-    if not options.draw:
-        rows = [row for v in VISCOSITIES for row in measure(options.lmp, HERE.parents[1] / "potentials", v)]
-        with open(table, "w", encoding="utf-8") as stream:
+    curves = read(TABLE) if TABLE.exists() else {}
+    for case in [] if options.draw else options.case or LABELS:
+        curves[case] = measure(options.lmp, HERE.parents[1] / "potentials", case)
+        with open(TABLE, "w", encoding="utf-8") as stream:
             stream.write("case,time_s,L_over_W\n")
-            stream.writelines(f"{name},{t:.6g},{ratio:.6g}\n" for name, t, ratio in rows)
+            stream.writelines(f"{name},{t:.6g},{ratio:.6g}\n" for name, rows in curves.items() for t, ratio in zip(*rows))
 
     figure, axis = plt.subplots(figsize=(7, 4.8))
     times = []
@@ -74,11 +77,13 @@ def main():
         axis.plot(t, ratio, "os^v"[n], ms=4, mfc="none", color=f"C{n}", label=f"Hochmuth 1979, cell {name}: {p[0]:.3f} s")
         print(f"data, cell {name}: tc = {p[0]:.4f} s, L/W from {p[2]:.2f} to {p[1]:.2f}")
     print(f"data: {min(times):.4f} to {max(times):.4f} s")
-    for n, (name, (t, ratio)) in enumerate(read(table).items()):
+    for n, case in enumerate(case for case in LABELS if case in curves):
+        t, ratio = curves[case]
         p = fit(t, ratio)
-        axis.plot(t, ratio, "-k", lw=1 + 0.6 * n, alpha=0.4 + 0.2 * n, label=f"{name.replace('eta_m', 'η_m =')} pg/µs: {p[0]:.3f} s")
+        axis.plot(t, ratio, ("-", "--", ":", "-.")[n], color="k", lw=2 if n == 0 else 1,
+                  label=f"{LABELS[case]}: {p[0]:.3f} s")
         inside = "inside" if min(times) <= p[0] <= max(times) else "outside"
-        print(f"{name}: tc = {p[0]:.4f} s, L/W from {p[2]:.2f} to {p[1]:.2f}, {inside} the data")
+        print(f"{case}: tc = {p[0]:.4f} s, L/W from {p[2]:.2f} to {p[1]:.2f}, {inside} the data")
     axis.set_xlabel("time / s")
     axis.set_ylabel("length over width")
     axis.set_xlim(0, 0.45)

@@ -12,6 +12,7 @@
 #include "rbc_cell_template.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -140,8 +141,19 @@ rbc::MembraneParameters FixRBCMembrane::parse(int narg, char **arg)
       iarg += 2;
     } else if (keyword == "viscosity") {
       need(1, keyword);
-      viscosity = not_negative(iarg + 1, keyword);
+      const double at_rest = not_negative(iarg + 1, keyword);
+      viscosity = at_rest;
       iarg += 2;
+      if (iarg < narg && strcmp(arg[iarg], "thinning") == 0) {
+        need(2, "viscosity thinning");
+        const double fast = not_negative(iarg + 1, "viscosity thinning eta_inf");
+        if (fast > at_rest)
+          error->all(FLERR, iarg + 1,
+                     "Fix rbc/membrane viscosity thinning eta_inf value {} must be <= eta_m, {}",
+                     arg[iarg + 1], arg[iarg - 1]);
+        viscosity = {at_rest, fast, positive(iarg + 2, "viscosity thinning rate")};
+        iarg += 3;
+      }
     } else if (keyword == "swell") {
       need(1, keyword);
       swelling = Swelling(lmp, arg[iarg + 1]);
@@ -225,6 +237,7 @@ void FixRBCMembrane::post_neighbor()
   sizes.resize(2 * count);
   volume_rates.resize(count);
   volume_gradient.resize(volume_kept ? count * surface->size() : 0);
+  linear_at.resize(is_thinning() ? count * surface->size() : 0);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -346,15 +359,55 @@ void FixRBCMembrane::add_to_atoms(const LocalCells::Cell &cell, bool with_virial
 
 /* ---------------------------------------------------------------------- */
 
-void FixRBCMembrane::add_viscous_forces(bool with_virial)
+void FixRBCMembrane::add_viscous_forces(bool with_virial, double multiple)
 {
   stopwatch.start();
   if (comm->nprocs > 1) comm->forward_comm(this);
   for (const LocalCells::Cell &cell : cells->cells()) {
     viscous_forces(cell);
+    if (multiple != 1)
+      for (Vec3 &force : f) force *= multiple;
     add_to_atoms(cell, with_virial);
   }
   stopwatch.stop();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCMembrane::linearise(bool frozen)
+{
+  if (!is_thinning()) return;
+  viscosity_frozen = frozen;
+  if (comm->nprocs > 1) comm->forward_comm(this);
+  Vec3 *at = linear_at.data();
+  for (const LocalCells::Cell &cell : cells->cells()) {
+    gather_velocities(cell);
+    at = std::copy(v.begin(), v.end(), at);
+  }
+}
+
+void FixRBCMembrane::add_viscous_change()
+{
+  if (!is_thinning()) return add_viscous_forces(false);
+  stopwatch.start();
+  if (comm->nprocs > 1) comm->forward_comm(this);
+  const Vec3 *at = linear_at.data();
+  for (const LocalCells::Cell &cell : cells->cells()) {
+    cells->gather(cell, x);
+    gather_velocities(cell);
+    rbc::viscous_forces_change(*surface, viscosity, *cell.elements, x, at, viscosity_frozen, v, f);
+    add_to_atoms(cell, false);
+    at += surface->size();
+  }
+  stopwatch.stop();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCMembrane::gather_velocities(const LocalCells::Cell &cell)
+{
+  for (int i = 0; i < surface->size(); ++i)
+    if (cell.atom[i] >= 0) v[i] = Vec3(atom->v[cell.atom[i]]);
 }
 
 /* ----------------------------------------------------------------------
@@ -364,8 +417,7 @@ void FixRBCMembrane::add_viscous_forces(bool with_virial)
 double FixRBCMembrane::viscous_forces(const LocalCells::Cell &cell)
 {
   cells->gather(cell, x);
-  for (int i = 0; i < surface->size(); ++i)
-    if (cell.atom[i] >= 0) v[i] = Vec3(atom->v[cell.atom[i]]);
+  gather_velocities(cell);
   return rbc::viscous_forces(*surface, viscosity, *cell.elements, x, v, f);
 }
 
@@ -498,5 +550,6 @@ void FixRBCMembrane::restart(char *buffer)
 double FixRBCMembrane::memory_usage()
 {
   const double vertices = static_cast<double>(cells->cells().size()) * surface->size();
-  return vertices * (sizeof(int) + sizeof(Vec3)) + volume_gradient.size() * sizeof(Vec3);
+  return vertices * (sizeof(int) + sizeof(Vec3)) +
+         (volume_gradient.size() + linear_at.size()) * sizeof(Vec3);
 }

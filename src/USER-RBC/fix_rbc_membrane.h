@@ -11,6 +11,7 @@ FixStyle(rbc/membrane,FixRBCMembrane);
 #include "rbc_local_cells.h"
 #include "rbc_swelling.h"
 #include "stopwatch.h"
+#include "surface_viscosity.h"
 
 #include <memory>
 
@@ -34,10 +35,17 @@ class FixRBCMembrane : public Fix {
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
 
-  // used by fix rbc/ib: adds the viscous forces at the atoms' velocities
+  // used by fix rbc/ib: adds a multiple of the viscous forces at the atoms' velocities
 
-  bool is_viscous() const { return viscosity > 0; }
-  void add_viscous_forces(bool with_virial);
+  bool is_viscous() const { return !viscosity.is_zero(); }
+  void add_viscous_forces(bool with_virial, double multiple = 1);
+
+  // used by fix rbc/ib: adds their change if the velocities at the last linearise() change by those of the atoms, or, if
+  // frozen, what it would be at the viscosity that they had
+
+  bool is_thinning() const { return viscosity.thins(); }
+  void linearise(bool frozen);
+  void add_viscous_change();
 
   // used by fix rbc/ib: takes from the velocities what would change the cells' volumes
 
@@ -62,11 +70,13 @@ class FixRBCMembrane : public Fix {
   std::unique_ptr<rbc::MembraneModel> model;
   std::unique_ptr<LocalCells> cells;
   bool volume_kept = true;
-  double viscosity = 0;
+  rbc::SurfaceViscosity viscosity;
   Swelling swelling;
   double ghost_cutoff = 0;    // that this fix asked for
 
   std::vector<rbc::Vec3> x, f, v;
+  std::vector<rbc::Vec3> linear_at;    // velocities of the vertices of all cells here
+  bool viscosity_frozen = false;
   std::vector<rbc::Vec3> volume_gradient;    // of the vertices of all cells here, see keep_volume()
   std::vector<double> sizes;                 // area and volume of each cell here
   std::vector<double> volume_rates, sums;
@@ -76,6 +86,7 @@ class FixRBCMembrane : public Fix {
   rbc::MembraneParameters parse(int, char **);
   double reach() const;
   void update_swelling(bool new_run);
+  void gather_velocities(const LocalCells::Cell &);
   double viscous_forces(const LocalCells::Cell &);
   double viscous_power();
   void add_to_atoms(const LocalCells::Cell &, bool with_virial);

@@ -6,31 +6,104 @@
 
 namespace rbc {
 
-double viscous_forces(const SurfaceTemplate &shape, double viscosity, const CellElements &elements,
-                      const std::vector<Vec3> &x, const std::vector<Vec3> &v, std::vector<Vec3> &f)
+namespace {
+
+using Tensor = Eigen::Matrix2d;
+
+double contract(const Tensor &a, const Tensor &b)
+{
+  return (a.array() * b.array()).sum();
+}
+
+/// A triangle in its plane, in components on the edges out of its first corner.
+class Plane {
+ public:
+  Plane(const SurfaceTemplate::Corners &corners, const Vec3 *x) :
+      corners_(corners), e1_(x[corners[1]] - x[corners[0]]), e2_(x[corners[2]] - x[corners[0]])
+  {
+    Tensor metric;
+    metric << e1_.squaredNorm(), e1_.dot(e2_), e1_.dot(e2_), e2_.squaredNorm();
+    inverse_ = metric.inverse();
+    area_ = std::sqrt(metric.determinant()) / 2;
+  }
+
+  double area() const { return area_; }
+
+  /// Rate of deformation, covariant.
+  Tensor rate(const Vec3 *v) const
+  {
+    const Vec3 w1 = v[corners_[1]] - v[corners_[0]], w2 = v[corners_[2]] - v[corners_[0]];
+    const double mixed = (e1_.dot(w2) + e2_.dot(w1)) / 2;
+    Tensor rate;
+    rate << e1_.dot(w1), mixed, mixed, e2_.dot(w2);
+    return rate;
+  }
+
+  /// Contravariant deviator of a covariant tensor.
+  Tensor deviator(const Tensor &covariant) const
+  {
+    const Tensor mixed = inverse_ * covariant;
+    return mixed * inverse_ - mixed.trace() / 2 * inverse_;
+  }
+
+  /// Forces on the corners that hold a contravariant tension.
+  void pull(const Tensor &tension, std::vector<Vec3> &f) const
+  {
+    const Vec3 force1 = -area_ * (tension(0, 0) * e1_ + tension(0, 1) * e2_);
+    const Vec3 force2 = -area_ * (tension(1, 0) * e1_ + tension(1, 1) * e2_);
+    f[corners_[1]] += force1;
+    f[corners_[2]] += force2;
+    f[corners_[0]] -= force1 + force2;
+  }
+
+ private:
+  const SurfaceTemplate::Corners &corners_;
+  Vec3 e1_, e2_;
+  Tensor inverse_;
+  double area_;
+};
+
+/// Difference of the principal values of a rate with this deviator.
+double shear(const Tensor &rate, const Tensor &deviator)
+{
+  return std::sqrt(std::max(0.0, 2 * contract(deviator, rate)));
+}
+
+}    // namespace
+
+double viscous_forces(const SurfaceTemplate &shape, const SurfaceViscosity &viscosity,
+                      const CellElements &elements, const std::vector<Vec3> &x,
+                      const std::vector<Vec3> &v, std::vector<Vec3> &f)
 {
   std::fill(f.begin(), f.end(), Vec3::Zero());
   double power = 0;
   for (int n = 0; n < elements.loaded; ++n) {
-    const auto &[i, j, k] = shape.triangles[elements.triangles[n]];
-    const Vec3 e1 = x[j] - x[i], e2 = x[k] - x[i], w1 = v[j] - v[i], w2 = v[k] - v[i];
-    Eigen::Matrix2d metric, rate;
-    metric << e1.squaredNorm(), e1.dot(e2), e1.dot(e2), e2.squaredNorm();
-    const double mixed = (e1.dot(w2) + e2.dot(w1)) / 2;
-    rate << e1.dot(w1), mixed, mixed, e2.dot(w2);
-
-    const Eigen::Matrix2d inverse = metric.inverse(), mixed_rate = inverse * rate;
-    const Eigen::Matrix2d stress =
-        2 * viscosity * (mixed_rate * inverse - mixed_rate.trace() / 2 * inverse);
-    const double area = std::sqrt(metric.determinant()) / 2;
-    const Vec3 force_j = -area * (stress(0, 0) * e1 + stress(0, 1) * e2);
-    const Vec3 force_k = -area * (stress(1, 0) * e1 + stress(1, 1) * e2);
-    f[j] += force_j;
-    f[k] += force_k;
-    f[i] -= force_j + force_k;
-    if (elements.owned[i]) power += area * (stress.array() * rate.array()).sum();
+    const auto &corners = shape.triangles[elements.triangles[n]];
+    const Plane plane(corners, x.data());
+    const Tensor rate = plane.rate(v.data()), deviator = plane.deviator(rate);
+    const double eta = viscosity.thins() ? viscosity(shear(rate, deviator)) : viscosity.at_rest();
+    const Tensor tension = 2 * eta * deviator;
+    plane.pull(tension, f);
+    if (elements.owned[corners[0]]) power += plane.area() * contract(tension, rate);
   }
   return power;
+}
+
+void viscous_forces_change(const SurfaceTemplate &shape, const SurfaceViscosity &viscosity,
+                           const CellElements &elements, const std::vector<Vec3> &x, const Vec3 *v,
+                           bool frozen, const std::vector<Vec3> &w, std::vector<Vec3> &f)
+{
+  std::fill(f.begin(), f.end(), Vec3::Zero());
+  for (int n = 0; n < elements.loaded; ++n) {
+    const Plane plane(shape.triangles[elements.triangles[n]], x.data());
+    const Tensor rate = plane.rate(v), deviator = plane.deviator(rate);
+    const double speed = shear(rate, deviator);
+    const Tensor change = plane.rate(w.data());
+    Tensor tension = 2 * viscosity(speed) * plane.deviator(change);
+    if (!frozen && speed > 0)
+      tension += 4 * viscosity.slope(speed) * contract(deviator, change) / speed * deviator;
+    plane.pull(tension, f);
+  }
 }
 
 }    // namespace rbc

@@ -22,6 +22,10 @@
 using namespace LAMMPS_NS;
 using rbc::Numbers;
 
+// linear solves, where the membranes' viscosity depends on the velocities
+
+static constexpr int MOST_ROUNDS = 20;
+
 /* ---------------------------------------------------------------------- */
 
 MarkerMotion::MarkerMotion(LAMMPS *lmp, std::string style, int groupbit, fluid::KernelKind kernel) :
@@ -138,6 +142,8 @@ void MarkerMotion::velocities_of_forces(Stage stage)
 /* ----------------------------------------------------------------------
    with viscous membranes the forces were computed with the velocities v that atoms had; those sought obey
      (1 + M Z) V = M (F + Z v) + U,   Z the resistance of the membranes, M the mobility of the markers
+   where Z depends on V, Newton's method: Z is that of small changes of V, and what is left goes into the next round. A
+   round that gains little is followed by one with the viscosity frozen, which always gains (Kacanov's method).
 ------------------------------------------------------------------------- */
 
 void MarkerMotion::update_velocities(Stage stage)
@@ -148,36 +154,71 @@ void MarkerMotion::update_velocities(Stage stage)
     return;
   }
 
-  load(atom->v, guess_);
-  load(atom->f, forces_);
-  velocities_of_forces(stage);
-  load(atom->v, residual_);
-  double fastest = 0;
-  for (std::size_t n = 0; n < members_.size(); ++n) {
-    double square = 0;
-    for (int d = 0; d < 3; ++d) square += residual_[3 * n + d] * residual_[3 * n + d];
-    fastest = std::max(fastest, square);
-  }
-  MPI_Allreduce(MPI_IN_PLACE, &fastest, 1, MPI_DOUBLE, MPI_MAX, world);
-  double count = members_.size();
+  bool thinning = false;
+  for (const FixRBCMembrane *membrane : viscous_) thinning = thinning || membrane->is_thinning();
+  double count = static_cast<double>(members_.size());
   sum(&count, 1);
-  for (std::size_t i = 0; i < guess_.size(); ++i) residual_[i] -= guess_[i];
 
-  correction_.assign(guess_.size(), 0.0);
-  const double allowed = tolerance * std::sqrt(fastest * count);
-  const double error = gmres.solve(
-      [this](const Numbers &p, Numbers &result) {
-        resistance(p, result);
-        for (std::size_t i = 0; i < p.size(); ++i) result[i] += p[i];
-      },
-      *this, residual_, allowed, correction_);
-  if (!(error <= allowed)) ++unconverged;
-
-  store(forces_, atom->f);
-  store(correction_, atom->v);
-  for (FixRBCMembrane *membrane : viscous_) membrane->add_viscous_forces(true);
+  load(atom->v, guess_);
   velocities_of_forces(stage);
+  double error = 0;
+  bool frozen = false;
+  for (int round = 0;; ++round) {
+    load(atom->f, forces_);
+    find_residual();
+    const double before = error, allowed = tolerance * fastest() * std::sqrt(count);
+    error = std::sqrt(dot(*this, residual_, residual_));
+    if (round > 0 && !(error > allowed)) break;
+    if (round == MOST_ROUNDS) {
+      ++unconverged;
+      break;
+    }
+    frozen = round > 0 && !frozen && error > before / 2;
+
+    store(guess_, atom->v);
+    for (FixRBCMembrane *membrane : viscous_) membrane->linearise(frozen);
+    correction_.assign(guess_.size(), 0.0);
+    const double linear_error = gmres.solve(
+        [this](const Numbers &p, Numbers &result) {
+          resistance(p, result);
+          for (std::size_t i = 0; i < p.size(); ++i) result[i] += p[i];
+        },
+        *this, residual_, thinning ? allowed / 2 : allowed, correction_);
+    correct_forces();
+    velocities_of_forces(stage);
+    if (thinning) continue;
+    if (!(linear_error <= allowed)) ++unconverged;
+    break;
+  }
   check_velocities(stage);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void MarkerMotion::find_residual()
+{
+  load(atom->v, residual_);
+  for (std::size_t i = 0; i < guess_.size(); ++i) residual_[i] -= guess_[i];
+}
+
+/* ----------------------------------------------------------------------
+   adds the correction to the velocities guessed, and what follows from it to the forces
+------------------------------------------------------------------------- */
+
+void MarkerMotion::correct_forces()
+{
+  store(forces_, atom->f);
+  for (FixRBCMembrane *membrane : viscous_) {
+    if (membrane->is_thinning()) {
+      store(guess_, atom->v);
+      membrane->add_viscous_forces(true, -1);
+    }
+  }
+  for (std::size_t i = 0; i < guess_.size(); ++i) guess_[i] += correction_[i];
+  for (FixRBCMembrane *membrane : viscous_) {
+    store(membrane->is_thinning() ? guess_ : correction_, atom->v);
+    membrane->add_viscous_forces(true);
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -203,7 +244,7 @@ void MarkerMotion::resistance(const Numbers &p, Numbers &v)
   v.assign(p.size(), 0.0);
   store(p, atom->v);
   store(v, atom->f);
-  for (FixRBCMembrane *membrane : viscous_) membrane->add_viscous_forces(false);
+  for (FixRBCMembrane *membrane : viscous_) membrane->add_viscous_change();
 
   const std::size_t all = 3 * static_cast<std::size_t>(atom->nlocal);
   applied_.resize(all);
@@ -258,7 +299,7 @@ void MarkerMotion::check_positions()
 
 /* ---------------------------------------------------------------------- */
 
-double MarkerMotion::longest_step() const
+double MarkerMotion::fastest() const
 {
   double fastest2 = 0;
   for (int i : members_) {
@@ -266,7 +307,12 @@ double MarkerMotion::longest_step() const
     fastest2 = std::max(fastest2, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   }
   MPI_Allreduce(MPI_IN_PLACE, &fastest2, 1, MPI_DOUBLE, MPI_MAX, world);
-  return 0.5 * courant * fluid_->smallest_spacing() / std::sqrt(fastest2);
+  return std::sqrt(fastest2);
+}
+
+double MarkerMotion::longest_step() const
+{
+  return 0.5 * courant * fluid_->smallest_spacing() / fastest();
 }
 
 /* ---------------------------------------------------------------------- */

@@ -57,6 +57,8 @@ class MarkerMotion : protected Pointers, public rbc::Motion {
   void check_velocities(Stage stage);
   void check_positions();
 
+  double fastest() const;
+
   /// Time in which the fastest atom crosses half of what it may.
   double longest_step() const;
   double *rows(double **array) const { return members_.empty() ? nullptr : array[0]; }
@@ -92,6 +94,8 @@ class MarkerMotion : protected Pointers, public rbc::Motion {
 
   void velocities_of_forces(Stage stage);
   void report_too_fast(Stage stage);
+  void find_residual();
+  void correct_forces();
   void resistance(const rbc::Numbers &p, rbc::Numbers &v);
 };
 

@@ -5,6 +5,7 @@
 namespace {
 
 using rbc::CellElements;
+using rbc::SurfaceViscosity;
 using test::Matrix3;
 using test::pi;
 using test::Vertices;
@@ -16,7 +17,7 @@ struct Sphere {
   }
 
   /// Power dissipated where every vertex moves with `gradient` times its position.
-  double power(double viscosity, const Matrix3 &gradient)
+  double power(const SurfaceViscosity &viscosity, const Matrix3 &gradient)
   {
     v = test::transformed(shape.vertices,
                           [&](const rbc::Vec3 &x) { return rbc::Vec3(gradient * x); });
@@ -111,6 +112,127 @@ TEST(MembraneViscosity, OfPartsIsThatOfTheWhole)
     }
   }
   EXPECT_NEAR(sum, whole, 1e-12 * whole);
+}
+
+// ---- a viscosity that falls with the rate of shear
+
+const SurfaceViscosity thinning(5, 0.7, 3);
+
+double cross_law(double shear)
+{
+  return 0.7 + 4.3 * 3 / (3 + shear);
+}
+
+/// A rectangle of 2 by 1.5 in the plane of x and y: the upper face of a cuboid.
+struct FlatSheet {
+  FlatSheet() : shape(test::cuboid({2, 1.5, 1}, 3).surface()), f(shape.size())
+  {
+    face.owned.assign(shape.size(), 1);
+    for (int t = 0; t < static_cast<int>(shape.triangles.size()); ++t) {
+      const auto &corners = shape.triangles[t];
+      if (std::all_of(corners.begin(), corners.end(),
+                      [&](int i) { return std::abs(height(i) - top()) < 1e-12; }))
+        face.triangles.push_back(t);
+    }
+    face.loaded = static_cast<int>(face.triangles.size());
+  }
+
+  double height(int i) const { return shape.vertices[i][2]; }
+  double top() const
+  {
+    double highest = height(0);
+    for (int i = 1; i < shape.size(); ++i) highest = std::max(highest, height(i));
+    return highest;
+  }
+
+  double power(const Matrix3 &gradient)
+  {
+    const Vertices v = test::transformed(
+        shape.vertices, [&](const rbc::Vec3 &x) { return rbc::Vec3(gradient * x); });
+    return rbc::viscous_forces(shape, thinning, face, shape.vertices, v, f);
+  }
+
+  /// Tension across the side of largest x: minus the force on its vertices over its length.
+  rbc::Vec3 tension() const
+  {
+    double side = shape.vertices[0][0];
+    for (const rbc::Vec3 &x : shape.vertices) side = std::max(side, x[0]);
+    rbc::Vec3 sum = rbc::Vec3::Zero();
+    for (int i = 0; i < shape.size(); ++i)
+      if (std::abs(shape.vertices[i][0] - side) < 1e-12) sum -= f[i];
+    return sum / 1.5;
+  }
+
+  rbc::SurfaceTemplate shape;
+  CellElements face;
+  Vertices f;
+};
+
+/// Tension eta(D1 - D2) (2 D - tr D) and power eta(D1 - D2) (D1 - D2)^2 per area.
+TEST(ThinningViscosity, OfAFlatSheetFollowsTheLaw)
+{
+  FlatSheet sheet;
+  ASSERT_EQ(sheet.face.loaded, 18);
+  for (double rate : {0.01, 1.0, 30.0}) {
+    Matrix3 simple_shear = Matrix3::Zero();
+    simple_shear(0, 1) = rate;
+    const Matrix3 planar = rbc::Vec3(rate, -rate, 0).asDiagonal(),
+                  one_sided = rbc::Vec3(rate, 0, 0).asDiagonal();
+    struct {
+      const Matrix3 &gradient;
+      double shear;
+      rbc::Vec3 tension;
+    } const cases[] = {
+        {simple_shear, rate, {0, cross_law(rate) * rate, 0}},
+        {planar, 2 * rate, {cross_law(2 * rate) * 2 * rate, 0, 0}},
+        {one_sided, rate, {cross_law(rate) * rate, 0, 0}},
+    };
+    for (const auto &[gradient, shear, tension] : cases) {
+      const double power = 3 * cross_law(shear) * shear * shear;
+      EXPECT_NEAR(sheet.power(gradient), power, 1e-12 * power);
+      EXPECT_LT((sheet.tension() - tension).norm(), 1e-12 * tension.norm());
+    }
+  }
+}
+
+TEST(ThinningViscosity, ChangeIsTheDerivativeOfTheForces)
+{
+  Sphere sphere(3);
+  Matrix3 one, two;
+  one << 1, 2, -3, 0.5, -2, 1, 0.2, 3, 1;
+  two << 0, 1, 0, 0, 0, 2, 1, 1, -1;
+  const Vertices &x = sphere.shape.vertices;
+  sphere.power(thinning, one);
+  const Vertices v = sphere.v;
+  sphere.power(thinning, two);
+  const Vertices w = sphere.v;
+  Vertices change(x.size());
+  rbc::viscous_forces_change(sphere.shape, thinning, sphere.all, x, v.data(), false, w, change);
+  double error[2];
+  for (int n : {0, 1}) {
+    const double step = 0.01 / (1 + n);
+    sphere.power(thinning, one + step * two);
+    Vertices difference = sphere.f;
+    sphere.power(thinning, one - step * two);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      difference[i] = (difference[i] - sphere.f[i]) / (2 * step);
+    error[n] = test::largest_difference(difference, change);
+  }
+  EXPECT_NEAR(test::order(error[0], error[1]), 2, 0.05);
+  EXPECT_LT(error[1], 1e-4 * test::total_norm(change) / change.size());
+}
+
+/// What Newton's method and the one with frozen viscosities solve for.
+TEST(ThinningViscosity, FrozenChangeByTheVelocitiesIsAllOfTheForces)
+{
+  Sphere sphere(3);
+  Matrix3 gradient;
+  gradient << 1, 2, -3, 0.5, -2, 1, 0.2, 3, 1;
+  sphere.power(thinning, gradient);
+  Vertices change(sphere.f.size());
+  rbc::viscous_forces_change(sphere.shape, thinning, sphere.all, sphere.shape.vertices,
+                             sphere.v.data(), true, sphere.v, change);
+  EXPECT_LT(test::largest_difference(change, sphere.f), 1e-13);
 }
 
 }    // namespace
