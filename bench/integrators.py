@@ -10,6 +10,7 @@ more than 1.5 times that of a stable run: what is not stable crumples the membra
 
 import argparse
 import csv
+import math
 import re
 import subprocess
 
@@ -61,9 +62,9 @@ class Cell:
         self.reference = None
 
     def run(self, integrator, timestep, end=None):
-        """Positions at FRAMES times, elastic energy at the end, solves and the timestep near that wanted with which the
-        frames are on time, or None if the run stopped."""
-        every = max(1, round((end or self.end) / timestep / FRAMES))
+        """Positions at FRAMES times, elastic energy at the end, solves and the timestep, the largest up to that wanted
+        with which the frames are on time, or None if the run stopped."""
+        every = math.ceil((end or self.end) / timestep / FRAMES - 1e-9)
         steps = FRAMES * every
         timestep = (end or self.end) / steps
         script = SCENE.format(potentials=self.options.potentials, material=self.material, area=self.area, rate=self.rate,
@@ -112,7 +113,7 @@ def measure(options, rate, names):
         steps += [("ab2", limits["ab2"] / n) for n in (1, 4)]
         steps = [(i, t) for i, t in steps if cell.end / t < 3e5]
         steps += [(f"rkc auto{order}", cell.unit / n) for order in ("", " order 3") for n in
-                  (6, 10, 20, 30, 40, 50, 60, 70, 100, 150, 200, 400)]
+                  (10, 20, 30, 40, 50, 60, 70, 80, 100, 150, 200, 400)]
         for integrator, timestep in steps:
             result = cell.run(integrator, timestep)
             if result is None:
