@@ -25,6 +25,7 @@ static constexpr int SHORTEST_INTERVAL = 5, LONGEST_INTERVAL = 50;
 static constexpr double STEADY_CHANGE = 0.01, FAST_CHANGE = 0.03;
 static constexpr double RADIUS_SAFETY = 1.06, LARGEST_RADIUS_GROWTH = 1.5;
 static constexpr double RADIUS_DISPLACEMENT = 1.0e-5;
+static constexpr int GUESS_ITERATIONS = 20;    // without a mode of an earlier estimate
 
 // third order: largest ratio of a timestep to the one before, parts of a step without a past
 
@@ -219,7 +220,9 @@ void SteadySteps::start_chebyshev()
 void SteadySteps::estimate_radius()
 {
   motion_.load(store_->astore, middle_, mode_column());
-  if (!(dot(motion_, middle_, middle_) > 0)) {
+  const bool known = dot(motion_, middle_, middle_) > 0;
+  spectrum_.min_iterations = known ? 1 : GUESS_ITERATIONS;
+  if (!known) {
     // a guess without any symmetry
     const std::vector<int> &members = motion_.members();
     for (std::size_t i = 0; i < middle_.size(); ++i)

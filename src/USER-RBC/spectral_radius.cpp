@@ -18,7 +18,8 @@ double SpectralRadius::estimate(Motion &motion, const Numbers &x, const Numbers 
     for (std::size_t i = 0; i < n; ++i) mode[i] = changed_[i] - velocity[i];
     const double before = radius;
     radius = root_mean_square(motion, mode) / size;
-    if (!(radius > 0) || std::abs(radius - before) <= tolerance * radius) break;
+    const bool steady = std::abs(radius - before) <= tolerance * radius;
+    if (!(radius > 0) || (steady && iteration + 1 >= min_iterations)) break;
   }
   return radius;
 }

@@ -11,6 +11,9 @@ class SpectralRadius {
   double tolerance = 0.01;    ///< change of the estimate at which iterations end
   int max_iterations = 100;
 
+  /// Iterations at least, for a guess that may hold little of the fastest mode: at first slower modes seem to be all.
+  int min_iterations = 1;
+
   /// `size` is how far points are displaced (root mean square). `mode` holds a first guess of the fastest
   /// mode, not zero, and becomes it; `velocity` is that at x. One evaluation per iteration.
   double estimate(Motion &motion, const Numbers &x, const Numbers &velocity, double size,

@@ -46,6 +46,21 @@ TEST(SpectralRadius, FindsTheLargestRate)
   }
 }
 
+/// A guess with a millionth of the fastest mode, among many half as fast.
+TEST(SpectralRadius, FindsAModeThatTheGuessHardlyHolds)
+{
+  test::GivenMotion motion([](const Numbers &x, double, Numbers &v) {
+    for (std::size_t i = 0; i < x.size(); ++i) v[i] = (i == 0 ? -2 : -1) * x[i];
+  });
+  const Numbers x(30);
+  Numbers v(30), mode(30, 1.0), again = mode;
+  mode[0] = again[0] = 1e-6;
+  rbc::SpectralRadius spectrum;
+  EXPECT_NEAR(spectrum.estimate(motion, x, v, 1e-4, again), 1, 0.01);
+  spectrum.min_iterations = 20;
+  EXPECT_NEAR(spectrum.estimate(motion, x, v, 1e-4, mode), 2, 0.04);
+}
+
 TEST(SpectralRadius, IsZeroWhereNothingDependsOnPositions)
 {
   test::GivenMotion motion([](const Numbers &, double, Numbers &v) { v.assign(3, 1.0); });
