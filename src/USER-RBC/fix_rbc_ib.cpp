@@ -291,8 +291,8 @@ void FixRBCIB::setup(int /*vflag*/)
   motion->check_velocities(Stage::START);
   motion->reset_stopwatches();
   for (FixRBCMembrane *membrane : membranes) membrane->stopwatch.reset();
-  contact = dynamic_cast<PairRBCJKR *>(force->pair_match("rbc/jkr", 1));
-  if (contact) {
+  contacts = PairRBCJKR::all(force);
+  for (PairRBCJKR *contact : contacts) {
     contact->finding.reset();
     contact->interacting.reset();
   }
@@ -490,10 +490,14 @@ void FixRBCIB::post_run()
   std::vector<std::string> names = {"Membrane", "Spread", "Solve", "Interpolate", "Exchange"};
   std::vector<double> seconds = {membrane, motion->spreading.seconds(), motion->solving.seconds(),
                                  motion->interpolating.seconds(), motion->exchanging.seconds()};
-  if (contact) {
+  if (!contacts.empty()) {
+    double finding = 0, interacting = 0;
+    for (const PairRBCJKR *contact : contacts) {
+      finding += contact->finding.seconds();
+      interacting += contact->interacting.seconds();
+    }
     names.insert(names.begin() + 1, {"Detection", "Contact"});
-    seconds.insert(seconds.begin() + 1,
-                   {contact->finding.seconds(), contact->interacting.seconds()});
+    seconds.insert(seconds.begin() + 1, {finding, interacting});
   }
   names.emplace_back("Total");
   seconds.push_back(std::accumulate(seconds.begin(), seconds.end(), 0.0));

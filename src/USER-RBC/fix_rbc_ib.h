@@ -50,7 +50,7 @@ class FixRBCIB : public Fix {
   class FixRBCFluid *fluid_fix = nullptr;
   bool inertia = false;    // of the fluid
   std::vector<class FixRBCMembrane *> membranes;
-  class PairRBCJKR *contact = nullptr;
+  std::vector<class PairRBCJKR *> contacts;
   std::unique_ptr<MarkerMotion> motion;
   std::unique_ptr<SteadySteps> steady;
 

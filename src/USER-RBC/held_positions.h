@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace rbc {
@@ -39,12 +40,13 @@ class HeldPositions {
  private:
   std::vector<double> held_;
 
+  /// Infinite for what is not a number.
   double squared_displacement(const double *x, int n) const
   {
     double sum = 0;
     for (std::size_t d = 3 * std::size_t(n); d < 3 * std::size_t(n) + 3; ++d)
       sum += (x[d] - held_[d]) * (x[d] - held_[d]);
-    return sum;
+    return sum >= 0 ? sum : std::numeric_limits<double>::infinity();
   }
 };
 

@@ -62,6 +62,23 @@ void PairRBCJKR::allocate()
 
 /* ---------------------------------------------------------------------- */
 
+std::vector<PairRBCJKR *> PairRBCJKR::all(Force *force)
+{
+  std::vector<PairRBCJKR *> found;
+  for (int n = 1;; ++n) {
+    auto *const pair = dynamic_cast<PairRBCJKR *>(force->pair_match("rbc/jkr", 1, n));
+    if (!pair || (!found.empty() && pair == found.back())) return found;
+    found.push_back(pair);
+  }
+}
+
+void PairRBCJKR::report_to(const std::shared_ptr<CollectiveStop> &driver)
+{
+  surfaces->report_to(driver);
+}
+
+/* ---------------------------------------------------------------------- */
+
 void PairRBCJKR::settings(int narg, char **arg)
 {
   if (narg != 1) error->all(FLERR, "Pair_style rbc/jkr takes one argument, the cutoff");
@@ -134,6 +151,8 @@ void PairRBCJKR::init_style()
                       "where contact is lost");
   surfaces->init();
   check_cells();
+  std::fill(tips.begin(), tips.end(),
+            TipContact());    // pair_style hybrid may have taken pairs away
   range = 0;
   neighbor_calls = neighbor_step = -1;
 }

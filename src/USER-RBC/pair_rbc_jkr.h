@@ -37,6 +37,11 @@ class PairRBCJKR : public Pair {
   void unpack_reverse_comm(int, int *, double *) override;
   double memory_usage() override;
 
+  /// All of this style, of which pair_style hybrid may have several.
+  static std::vector<PairRBCJKR *> all(class Force *);
+
+  void report_to(const std::shared_ptr<class CollectiveStop> &driver);
+
   rbc::Stopwatch finding, interacting;
 
  private:

@@ -320,6 +320,10 @@ std::vector<Vec3> RBCCreate::existing_atoms() const
   const std::vector<double> all = gather(mine, comm, world);
   std::vector<Vec3> places;
   for (std::size_t i = 0; i < all.size(); i += 3) places.emplace_back(&all[i]);
+  // the same order, whichever task has them
+  std::sort(places.begin(), places.end(), [](const Vec3 &a, const Vec3 &b) {
+    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+  });
   return places;
 }
 
@@ -378,6 +382,7 @@ void RBCCreate::create_atoms(const std::vector<Cell> &cells)
 
   RanPark random(lmp, std::max(seed, 1));
   const int nlocal_previous = atom->nlocal;
+  atom->nghost = 0;    // their indices are taken
   for (const Cell &cell : cells) {
     ++last[1];
     double velocity[3];

@@ -13,6 +13,7 @@
 #include "kspace.h"
 #include "modify.h"
 #include "pair.h"
+#include "pair_rbc_jkr.h"
 #include "update.h"
 
 #include <algorithm>
@@ -44,6 +45,7 @@ void MarkerMotion::connect(FixRBCFluid *fluid, const std::vector<FixRBCMembrane 
     if (membrane->is_viscous()) viscous_.push_back(membrane);
     membrane->report_to(stop);
   }
+  for (PairRBCJKR *pair : PairRBCJKR::all(force)) pair->report_to(stop);
 }
 
 void MarkerMotion::find_markers()

@@ -22,7 +22,7 @@ static constexpr double FINER = 0.25;
 /* ---------------------------------------------------------------------- */
 
 NearSurfaces::NearSurfaces(LAMMPS *lmp, std::string style) :
-    Pointers(lmp), style(std::move(style)), stop(lmp)
+    Pointers(lmp), style(std::move(style)), stop(std::make_shared<CollectiveStop>(lmp))
 {
 }
 
@@ -45,8 +45,12 @@ void NearSurfaces::init()
     const auto &first = membrane->local_cells().first_atoms();
     if (molecules.empty()) continue;
     cells.resize(std::max<std::size_t>(cells.size(), molecules.back() + 1), {-1, 0});
-    for (std::size_t n = 0; n < molecules.size(); ++n)
+    for (std::size_t n = 0; n < molecules.size(); ++n) {
+      if (cells[molecules[n]].shape >= 0)
+        error->all(FLERR, "{}: molecule ID {} belongs to two fixes rbc/membrane", style,
+                   molecules[n]);
       cells[molecules[n]] = {static_cast<int>(shapes.size()) - 1, first[n]};
+    }
   }
   if (shapes.empty())
     error->all(FLERR, "{} needs a fix rbc/membrane: it knows the cells and their triangles", style);
@@ -66,7 +70,9 @@ const NearSurfaces::Cell *NearSurfaces::cell_of(int i) const
   const tagint molecule = atom->molecule[i];
   if (molecule < 0 || molecule >= static_cast<tagint>(cells.size()) || cells[molecule].shape < 0)
     return nullptr;
-  return &cells[molecule];
+  const Cell &cell = cells[molecule];
+  const tagint vertex = atom->tag[i] - cell.first;    // others may have the same molecule ID
+  return vertex >= 0 && vertex < shapes[cell.shape].surface->size() ? &cell : nullptr;
 }
 
 const NearSurfaces::Shape *NearSurfaces::shape_of(int i) const
@@ -106,7 +112,7 @@ void NearSurfaces::build(double range, double slack_of_ghosts, double stale)
   built.hold(atom->x[0], atom->nlocal + atom->nghost);
   slack = FINER * slack_of_ghosts;
   collect_triangles(longest_known_edge(range, slack_of_ghosts + stale));
-  stop.check();
+  stop->check();
   owners.resize(atom->nlocal);
   int points = 0;
   for (int i = 0; i < atom->nlocal; ++i) {
@@ -133,10 +139,10 @@ void NearSurfaces::collect_triangles(double longest)
       const auto &corners = shape.surface->triangles[t];
       const int j = image_near(i, cell->first + corners[1], longest);
       const int k = image_near(i, cell->first + corners[2], longest);
-      if (j >= 0 && k >= 0)
+      if (j >= 0 && k >= 0 && are_near(j, k, longest))
         triangles.push_back({{i, j, k}, atom->molecule[i]});
       else if (i < atom->nlocal)
-        stop.report(fmt::format(
+        stop->report(fmt::format(
             "{}: a triangle of the cell with molecule ID {} near ({:.6g}, {:.6g}, {:.6g}) has an "
             "edge longer than {:.6g} at step {}; it is stretched too far, or raise the ghost "
             "cutoff {:.6g} with comm_modify cutoff",
@@ -149,13 +155,17 @@ void NearSurfaces::collect_triangles(double longest)
 int NearSurfaces::image_near(int i, tagint id, double longest) const
 {
   const int j = domain->closest_image(i, atom->map(id));
-  if (j < 0) return -1;
+  return j >= 0 && are_near(i, j, longest) ? j : -1;
+}
+
+bool NearSurfaces::are_near(int i, int j, double longest) const
+{
   double square = 0;
   for (int d = 0; d < 3; ++d) {
     const double apart = atom->x[j][d] - atom->x[i][d];
     square += apart * apart;
   }
-  return square <= longest * longest ? j : -1;
+  return square <= longest * longest;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -177,14 +187,14 @@ void NearSurfaces::check_moved()
   if (!(moved <= allowed)) {
     const int i = built.furthest_moved(atom->x[0]);
     const double *const x = atom->x[i];
-    stop.report(fmt::format(
+    stop->report(fmt::format(
         "{}: vertices moved by up to {:.4g} since step {}, when their neighbors were found, more "
         "than {:.6g}, at step {}: cell with molecule ID {} near ({:.6g}, {:.6g}, {:.6g}); raise "
         "the skin with the neighbor command, or lower the timestep",
         style, moved, neighbor->lastcall, allowed, update->ntimestep, atom->molecule[i], x[0], x[1],
         x[2]));
   }
-  stop.check();
+  stop->check();
 }
 
 /* ---------------------------------------------------------------------- */

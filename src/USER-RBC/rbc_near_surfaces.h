@@ -7,6 +7,7 @@
 #include "rbc_collective_stop.h"
 #include "surface_template.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,9 @@ class NearSurfaces : protected Pointers {
   /// An atom's share of the area of its cell at rest.
   double area(int i) const;
 
+  /// Who ends the run, or takes a step again, for what is found here.
+  void report_to(const std::shared_ptr<CollectiveStop> &driver) { stop = driver; }
+
   double bytes() const;
 
  private:
@@ -57,7 +61,7 @@ class NearSurfaces : protected Pointers {
   };
 
   std::string style;
-  CollectiveStop stop;
+  std::shared_ptr<CollectiveStop> stop;
   std::vector<Shape> shapes;
   std::vector<Cell> cells;    ///< by molecule ID
   rbc::NearTriangles finder;
@@ -73,6 +77,7 @@ class NearSurfaces : protected Pointers {
   void collect_triangles(double longest);
   void check_moved();
   int image_near(int i, tagint id, double longest) const;
+  bool are_near(int i, int j, double longest) const;
 };
 
 }    // namespace LAMMPS_NS

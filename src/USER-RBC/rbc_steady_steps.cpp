@@ -73,6 +73,7 @@ void SteadySteps::start_run(FixRBCFluid *fluid, bool forces_change)
   radius_step_ = -1;
   radius_interval_ = SHORTEST_INTERVAL;
   raw_radius_ = 0;
+  estimated_step_ = -1;
   rejected_ = 0;
   if (!control_.active()) return;
   const bool changed = update->dt != last_dt_ && !restarted_;    // by the user
@@ -255,12 +256,16 @@ void SteadySteps::estimate_radius()
 
 void SteadySteps::foresee_radius(double last)
 {
-  const double ratio = last > 0 ? raw_radius_ / last : 1, change = std::abs(ratio - 1);
+  radius_ = RADIUS_SAFETY * raw_radius_;
+  const bool anew = std::exchange(estimated_step_, update->ntimestep) == update->ntimestep;
+  if (anew || !(last > 0))
+    return;    // of a step tried again, or the first: nothing to compare with
+  const double ratio = raw_radius_ / last, change = std::abs(ratio - 1);
   if (change > FAST_CHANGE)
     radius_interval_ = std::max(radius_interval_ / 2, SHORTEST_INTERVAL);
   else if (change < STEADY_CHANGE)
     radius_interval_ = std::min(2 * radius_interval_, LONGEST_INTERVAL);
-  radius_ = RADIUS_SAFETY * raw_radius_ * std::clamp(ratio, 1.0, LARGEST_RADIUS_GROWTH);
+  radius_ *= std::clamp(ratio, 1.0, LARGEST_RADIUS_GROWTH);
 }
 
 void SteadySteps::choose_stages(double dt)

@@ -73,7 +73,8 @@ class SteadySteps : protected Pointers {
   rbc::SpectralRadius spectrum_;
   double radius_ = 0;
   double raw_radius_ = 0;    // the last estimate as it was
-  bigint radius_step_ = -1;
+  bigint radius_step_ = -1,
+         estimated_step_ = -1;    // the former is forgotten when a step is rejected
   int radius_interval_ = 0;
 
   rbc::StepControl control_;

@@ -150,16 +150,16 @@ class InPlasma(unittest.TestCase):
 
     STEPS = 150
 
-    def carried(self, ranks=1, integrator="midpoint", **changes):
+    def carried(self, ranks=1, integrator="midpoint", neighbor="neighbor 0.6 bin", thermo="", **changes):
         box = "region box block 0 18 0 12 0 12"
         walls = " wall zlo -0.0012 0 0 wall zhi 0.0012 0 0"    # 200/s
         return run(contact(
-            boundary="boundary p p f", box=box, neighbor="neighbor 0.6 bin",
+            boundary="boundary p p f", box=box, neighbor=neighbor,
             cells="rbc/create rbc single 7 6 7.3 rotate 4 1 0.5 0\nrbc/create rbc single 7.4 6 4.5",
             membrane="fix mem all rbc/membrane rbc mooney-rivlin 0.257 0.0257 0.01 bending 2.0e-4 volume yes",
             fluid="fix flow all rbc/fluid dx 1.0 viscosity 1.5 density 1.025 inertia none" + walls,
             ib=f"fix ib all rbc/ib flow integrator {integrator}", every="thermo 10",
-            thermo="thermo_style custom step c_pe c_contact[1]", dump=dump_line(self.STEPS), timestep="timestep 200",
+            thermo="thermo_style custom step c_pe c_contact[1]" + thermo, dump=dump_line(self.STEPS), timestep="timestep 200",
             run=f"run {self.STEPS}", **changes), ranks)
 
     def test_ranks_and_newton(self):
@@ -175,6 +175,13 @@ class InPlasma(unittest.TestCase):
                     self.assertLess(apart, 1e-11)
                     np.testing.assert_allclose(result.thermo["c_pe"], alone.thermo["c_pe"], rtol=0,
                                                atol=1e-9 * abs(alone.thermo["c_pe"]).max())
+
+    def test_adapt_shortens_steps_that_leave_the_list(self):
+        # at 200/s a vertex passes the skin in some hundred us; the error alone would allow more
+        thermo = self.carried(2, "rkc auto adapt 1.0 5000 courant 5", "neighbor 0.2 bin", " dt f_ib[9]").thermo
+        self.assertGreater(thermo["f_ib[9]"][-1], 0)    # steps taken again
+        self.assertLess(thermo["Dt"].max(), 2000)
+        self.assertLess(thermo["c_pe"].min(), 0)
 
     def test_the_step_cost_has_its_rows(self):
         printed = self.carried().printed
