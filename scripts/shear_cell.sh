@@ -2,7 +2,7 @@
 # Sets everything up and runs a healthy red cell in shear flow: numbers, ParaView files and a picture in
 # <build folder>/shear-cell. Arguments go to LAMMPS, for example: -var rate 60
 . "$(dirname "$0")/common.sh"
-"$ROOT/scripts/build.sh" 4Feb2025 lmp_rbc
+"$ROOT/scripts/build.sh" 4Feb2025 lmp_rbc rbcplugin
 
 example=$ROOT/examples/shear-cell
 output=$BUILD/shear-cell

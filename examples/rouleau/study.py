@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """A rouleau sheared at rising rates, with four works of adhesion: aggregates and energy of adhesion over the strain, and
-the cells at the end of each rate. Runs in.rouleau (a minute in all on one core), writes rouleau.csv and draws rouleau.png.
+the cells halfway through each rate. Runs in.rouleau (three minutes in all on one core), writes rouleau.csv and draws rouleau.png.
 """
 import csv
 import subprocess
