@@ -19,7 +19,7 @@ from read_ave_time import read_ave_time  # noqa: E402
 from snapshots import picture, surfaces  # noqa: E402
 
 SNAPSHOTS = 5
-TUMBLE = 9.4  # strain of one tumble at 100 /s in plasma
+TUMBLE = 9.2  # strain of half a turn at 100 /s in plasma
 
 
 def snapshots(folder, strain):
