@@ -272,11 +272,13 @@ void SteadySteps::choose_stages(double dt)
 {
   if (!automatic_stages_) return;
   const int stages = chebyshev_.stages_for(dt * radius_);
-  if (stages > rbc::ChebyshevMethod::MOST_STAGES)
-    error->all(FLERR,
-               "{}: integrator rkc needs more than {} stages at step {}: the timestep {:.3g} is "
-               "{:.3g} times the time in which the fastest mode relaxes",
-               style_, rbc::ChebyshevMethod::MOST_STAGES, update->ntimestep, dt, dt * radius_);
+  if (stages > rbc::ChebyshevMethod::MOST_STAGES) {
+    motion_.stop->report(fmt::format(
+        "{}: integrator rkc needs more than {} stages at step {}: the timestep {:.3g} is {:.3g} "
+        "times the time in which the fastest mode relaxes",
+        style_, rbc::ChebyshevMethod::MOST_STAGES, update->ntimestep, dt, dt * radius_));
+    motion_.stop->check();
+  }
   chebyshev_.set_stages(stages);
 }
 
