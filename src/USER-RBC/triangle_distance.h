@@ -1,5 +1,6 @@
 #pragma once
 
+#include "closest_point.h"
 #include "surface_template.h"
 
 #include <Eigen/Geometry>
@@ -12,37 +13,12 @@ namespace rbc {
 
 using Triangle = std::array<Vec3, 3>;
 
-/// Weights of the corners at the point of a triangle that is closest to p. Exactly 0 on edges and corners.
+/// Weights of the corners at the point of a triangle that is closest to p.
 inline std::array<double, 3> closest_on_triangle(const Vec3 &p, const Triangle &triangle)
 {
-  // Ericson, Real-Time Collision Detection (2005), 5.1.5: by Voronoi regions of corners, edges, face
-  const auto &[a, b, c] = triangle;
-  const Vec3 ab = b - a, ac = c - a, ap = p - a;
-  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-  const Vec3 bp = p - b;
-  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-  const double beside_ab = d1 * d4 - d3 * d2;
-  if (beside_ab <= 0 && d1 >= 0 && d3 <= 0) {
-    const double t = d1 / (d1 - d3);
-    return {1 - t, t, 0};
-  }
-  const Vec3 cp = p - c;
-  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
-  const double beside_ac = d5 * d2 - d1 * d6;
-  if (beside_ac <= 0 && d2 >= 0 && d6 <= 0) {
-    const double t = d2 / (d2 - d6);
-    return {1 - t, 0, t};
-  }
-  const double beside_bc = d3 * d6 - d5 * d4;
-  if (beside_bc <= 0 && d4 >= d3 && d5 >= d6) {
-    const double t = (d4 - d3) / (d4 - d3 + d5 - d6);
-    return {0, 1 - t, t};
-  }
-  const double sum = beside_ab + beside_ac + beside_bc;
-  return {beside_bc / sum, beside_ac / sum, beside_ab / sum};
+  const auto plain = [](const Vec3 &v) { return PlainVector{v[0], v[1], v[2]}; };
+  return closest_point_weights(plain(p), plain(triangle[0]), plain(triangle[1]),
+                               plain(triangle[2]));
 }
 
 inline double squared_distance(const Vec3 &p, const Triangle &triangle)
