@@ -206,6 +206,16 @@ void Flow::add_response(double factor)
   }
 }
 
+void Flow::add_mean(const Vec3 &velocity)
+{
+  assert(!grid_.walls && regime_.inertia == Inertia::none);
+  for (int c = 0; c < 3; ++c) {
+    double *const u = velocity_[c].data;
+    const std::size_t n = velocity_.box().size();
+    for (std::size_t i = 0; i < n; ++i) u[i] += velocity[c];
+  }
+}
+
 const ScalarField &Flow::pressure()
 {
   if (!pressure_.bytes()) pressure_ = ScalarField(halo_.box());

@@ -60,6 +60,9 @@ class Flow {
                const double *force, double *velocity);
   void add_response(double factor);
 
+  /// Adds a uniform velocity, ghosts included: triply periodic and without inertia only, where no force drives the mean.
+  void add_mean(const Vec3 &velocity);
+
   const Grid &grid() const { return grid_; }
   const Regime &regime() const { return regime_; }
   const Decomposition &decomposition() const { return decomposition_; }

@@ -1,0 +1,56 @@
+// Poiseuille flow in a tube of markers: slip against solves.
+
+#include "rigid_tube.h"
+
+#include <cstdio>
+#include <cstdlib>
+
+using namespace test;
+
+int main(int argc, char **argv)
+{
+  MPI_Init(&argc, &argv);
+  const double dx = argc > 1 ? std::atof(argv[1]) : 0.8, spacing = argc > 2 ? std::atof(argv[2]) : 1.2;
+  const double R = 11.25, offset = argc > 3 ? std::atof(argv[3]) : 0.41;
+  const KernelKind kernel = argc > 4 && std::atoi(argv[4]) == 3 ? KernelKind::roma3 : KernelKind::peskin4;
+  const int wide = fast_size(std::lround(26 / dx)), lengthy = fast_size(std::lround(32 / dx));
+  const Grid grid{{lengthy, wide, wide}, {0, 0, 0}, {dx, dx, dx}, false};
+  Points points = tube(grid, R + offset * dx, spacing * dx);
+  const Decomposition decomposition = even(grid, {1, 1, ranks()});
+  assign(points, grid, decomposition);
+  const auto position = rows_here(points.position, points);
+  const std::vector<int> body(points.index.size(), 0);
+  for (double tol : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
+    Flow flow(grid, decomposition, 4, Regime{1.0});
+    RigidSurface wall;
+    wall.free_mean = true;
+    wall.tolerance = tol;
+    wall.max_solves = 400;
+    wall.most_directions = 400;
+    const double t0 = MPI_Wtime();
+    wall.set_markers(flow, kernel, points.index.size(), position.data(), body.data());
+    const double t1 = MPI_Wtime();
+    flow.clear_force();
+    Vec3 total{0, 0, 0};
+    set(flow.force()[0], flow.brick(), [&](int i, int j, int k) {
+      const double inside = from_axis(grid, location(grid, 0, i, j, k)) < R;
+      total[0] += inside * grid.cell_volume();
+      return inside;
+    });
+    wall.spread(flow, 0, total);
+    flow.gather_force();
+    flow.solve();
+    const double t2 = MPI_Wtime();
+    const auto outcome = wall.enforce(flow);
+    const double t3 = MPI_Wtime();
+    double flux = 0;
+    for_each(flow.brick(), [&](int i, int j, int k) {
+      if (i == 0 && from_axis(grid, location(grid, 0, i, j, k)) < R) flux += flow.velocity()[0](i, j, k) * dx * dx;
+    });
+    const double Q = sum(flux), exact = total[0] == 0 ? 1 : pi * R * R * R * R / 8;
+    if (rank() == 0)
+      std::printf("%g %d markers, tol %g: solves %d slip %.3g flow rate %+.3f %%, build %.3f s, solve %.3f s, enforce %.3f s each\n", spacing, points.count(), tol,
+                  outcome.solves, outcome.slip, 100 * (Q / exact - 1), t1 - t0, t2-t1, (t3-t2)/std::max(1,outcome.solves-1));
+  }
+  MPI_Finalize();
+}

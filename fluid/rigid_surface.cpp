@@ -1,0 +1,238 @@
+#include "rigid_surface.h"
+
+#include <Eigen/LU>
+
+#include <cmath>
+#include <numeric>
+
+namespace fluid {
+
+namespace {
+
+// Guesses are extrapolated over so many intervals of the last two evaluations at most. The residual left by directions
+// known must be so much below the one allowed that the solve for them need not be followed by another.
+constexpr double farthest = 1.5;
+constexpr double sure = 0.8;
+
+// Of the use of directions in the next evaluation that counts.
+constexpr double memory = 0.95;
+
+constexpr double longest = 4;    ///< steps along the preconditioned residual, and their inverse
+
+void reduce(double *values, std::ptrdiff_t count, MPI_Op operation, const Flow &flow)
+{
+  MPI_Allreduce(MPI_IN_PLACE, values, static_cast<int>(count), MPI_DOUBLE, operation,
+                flow.decomposition().comm);
+}
+
+/// Largest component of the velocity on this rank.
+double fastest(const Flow &flow)
+{
+  double speed = 0;
+  const auto u = flow.velocity().views();
+  const int first = flow.brick().lo[0], n = flow.brick().extent(0);
+  for (int c = 0; c < 3; ++c)
+    for_each_row(flow.brick(), [&](int j, int k) {
+      const double *const row = &u[c](first, j, k);
+      double largest = 0;
+#pragma omp simd reduction(max : largest)
+      for (int i = 0; i < n; ++i) largest = std::max(largest, std::abs(row[i]));
+      speed = std::max(speed, largest);
+    });
+  return speed;
+}
+
+using Rows = Eigen::Map<Eigen::Matrix<double, 3, Eigen::Dynamic>>;
+using ConstRows = Eigen::Map<const Eigen::Matrix<double, 3, Eigen::Dynamic>>;
+
+Rows rows(Eigen::VectorXd &vector)
+{
+  return {vector.data(), 3, vector.size() / 3};
+}
+
+ConstRows rows(const Eigen::VectorXd &vector)
+{
+  return {vector.data(), 3, vector.size() / 3};
+}
+
+double largest_row(const Eigen::VectorXd &vector)
+{
+  return vector.size() ? std::sqrt(rows(vector).colwise().squaredNorm().maxCoeff()) : 0;
+}
+
+}    // namespace
+
+void RigidSurface::set_markers(const Flow &flow, KernelKind kernel, int count,
+                               const double *position, const int *body)
+{
+  kernel_ = kernel;
+  index_.resize(count);
+  std::iota(index_.begin(), index_.end(), 0);
+  markers_ = {count, index_.data()};
+  const std::ptrdiff_t numbers = 3 * std::ptrdiff_t(count);
+  for (Vector *vector : {&target_, &force_, &earlier_}) vector->setZero(numbers);
+  for (Vector *vector : {&residual_, &step_, &response_, &direction_, &change_})
+    vector->resize(numbers);
+  position_ = Eigen::Map<const Vector>(position, numbers);
+  times.known = 0;
+  directions_.resize(numbers, most_directions);
+  responses_.resize(numbers, most_directions);
+  use_.setZero(most_directions);
+  shares_.setZero(most_directions);
+  forget();
+
+  mobility_.build(kernel, flow.grid(), flow.regime().viscosity, count, position, body);
+  if (!free_mean) return;
+  uniform_.resize(numbers, 3);
+  for (int d = 0; d < 3; ++d) {
+    rows(change_).colwise() = Eigen::Vector3d::Unit(d);
+    mobility_.apply(change_.data(), direction_.data());
+    uniform_.col(d) = direction_;
+    drag_.col(d) = rows(direction_).rowwise().sum();
+  }
+  reduce(drag_.data(), 9, MPI_SUM, flow);
+  drag_ = drag_.inverse().eval();
+}
+
+void RigidSurface::move(const double *position)
+{
+  position_ = Eigen::Map<const Vector>(position, position_.size());
+  forget();
+}
+
+int RigidSurface::spread(Flow &flow, double time, const Vec3 &others)
+{
+  double ahead = 0;
+  if (times.known == 2 && times.last != times.earlier)
+    ahead = (time - times.last) / (times.last - times.earlier);
+  if (!(std::abs(ahead) <= farthest)) ahead = 0;
+  change_ = force_ + ahead * (force_ - earlier_);
+  if (times.known == 0 || time != times.last) {
+    earlier_.swap(force_);
+    times.earlier = times.last;
+    times.known = std::min(times.known + 1, 2);
+  }
+  force_ = change_;
+  times.last = time;
+
+  if (free_mean) {
+    Eigen::Vector3d missing = -rows(force_).rowwise().sum();
+    for (int d = 0; d < 3; ++d) missing[d] -= others[d];
+    reduce(missing.data(), 3, MPI_SUM, flow);
+    force_ += uniform_ * (drag_ * missing);
+    flow.drive.mean = mean_;
+  }
+  return flow.spread(kernel_, markers_, position_.data(), force_.data(), 1.0);
+}
+
+/// The uniform velocity that directions without net force leave of a velocity, in the norm of the preconditioner.
+Eigen::Vector3d RigidSurface::uniform_part(const Flow &flow, const Vector &velocity) const
+{
+  Eigen::Vector3d part = uniform_.transpose() * velocity;
+  reduce(part.data(), 3, MPI_SUM, flow);
+  return drag_ * part;
+}
+
+RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
+{
+  Outcome outcome;
+  flow.share_velocity();
+  flow.interpolate(kernel_, markers_, position_.data(), response_.data());
+  residual_ = target_ - response_;
+
+  // residuals are what their uniform part leaves of them
+  Vec3 mean_change{0, 0, 0};
+  double largest[2]{0, std::max(fastest(flow), largest_row(target_))};
+  while (true) {
+    if (free_mean) {
+      const Eigen::Vector3d part = uniform_part(flow, residual_);
+      rows(residual_).colwise() -= part;
+      for (int d = 0; d < 3; ++d) mean_change[d] += part[d];
+    }
+    largest[0] = largest_row(residual_);
+    reduce(largest, 2, MPI_MAX, flow);
+    const double allowed = tolerance * largest[1];
+    outcome.slip = largest[0] == 0 ? 0 : largest[0] / largest[1];
+    outcome.converged = largest[0] <= allowed;
+    if (outcome.converged || outcome.solves >= max_solves) break;
+
+    // change_: what is left after the best combination of the directions known, step_
+    const auto known = directions_.leftCols(known_), responses = responses_.leftCols(known_);
+    auto shares = shares_.head(known_);
+    shares.noalias() = known.transpose() * residual_;
+    reduce(shares.data(), known_, MPI_SUM, flow);
+    step_.noalias() = known * shares;
+    change_.noalias() = residual_ - responses * shares;
+    const double square = shares.squaredNorm();
+    if (square > 0) use_.head(known_) = memory * use_.head(known_) + shares.cwiseAbs2() / square;
+    if (free_mean) rows(change_).colwise() -= uniform_part(flow, change_);
+    double left = largest_row(change_);
+    reduce(&left, 1, MPI_MAX, flow);
+
+    const bool enough = left <= sure * allowed;
+    double products[2]{0, 0};    // of the new direction: with what is left, with its response
+    if (!enough) {
+      precondition(flow, change_, direction_);
+      shares_.head(known_).noalias() = responses.transpose() * direction_;
+      reduce(shares_.data(), known_, MPI_SUM, flow);
+      direction_.noalias() -= known * shares_.head(known_);
+      products[0] = direction_.dot(change_);
+      step_ += length_ * direction_;
+    }
+    // that of the directions known is residual_ - change_ but for a uniform velocity, which no direction feels
+    change_ = residual_ - change_;
+    flow.respond(kernel_, markers_, position_.data(), step_.data(), response_.data());
+    ++outcome.solves;
+    flow.add_response(1.0);
+    force_ += step_;
+    residual_ -= response_;
+    if (enough) continue;
+
+    change_ = (response_ - change_) / length_;
+    products[1] = direction_.dot(change_);
+    reduce(products, 2, MPI_SUM, flow);
+    if (!(products[1] > 0 && products[0] > 0)) break;    // round-off
+    add_direction(1 / std::sqrt(products[1]));
+    length_ = std::min(std::max(products[0] / products[1], 1 / longest), longest);
+  }
+  if (free_mean) {
+    flow.add_mean(mean_change);
+    for (int d = 0; d < 3; ++d) mean_[d] = flow.drive.mean[d] + mean_change[d];
+    flow.drive.mean = mean_;
+  }
+  return outcome;
+}
+
+/// Positive definite on forces without a sum.
+void RigidSurface::precondition(const Flow &flow, const Vector &velocity, Vector &force)
+{
+  mobility_.apply(velocity.data(), force.data());
+  if (!free_mean) return;
+  Eigen::Vector3d sum = rows(force).rowwise().sum();
+  reduce(sum.data(), 3, MPI_SUM, flow);
+  force.noalias() -= uniform_ * (drag_ * sum);
+}
+
+/// Takes the place of the direction that was of least use when there are too many.
+void RigidSurface::add_direction(double scale)
+{
+  int place = known_;
+  if (known_ == most_directions)
+    use_.minCoeff(&place);
+  else
+    ++known_;
+  directions_.col(place) = scale * direction_;
+  responses_.col(place) = scale * change_;
+  use_[place] = 1;
+}
+
+std::size_t RigidSurface::bytes() const
+{
+  std::size_t numbers = uniform_.size() + directions_.size() + responses_.size();
+  for (const Vector *vector : {&position_, &target_, &force_, &earlier_, &residual_, &step_,
+                               &response_, &direction_, &change_, &use_, &shares_})
+    numbers += vector->size();
+  return numbers * sizeof(double) + mobility_.bytes();
+}
+
+}    // namespace fluid

@@ -1,0 +1,90 @@
+#pragma once
+
+#include "flow.h"
+#include "patch_mobility.h"
+
+namespace fluid {
+
+/// Markers of rigid no-slip surfaces that move as prescribed, whatever the flow. The forces lambda that they exert on
+/// the fluid obey
+///   A lambda = U - u,   A = J S J^T the mobility of the markers, u the flow of all other forces at the markers.
+/// Forces extrapolated from the last evaluations are part of the flow from the start (spread). From there on each
+/// iteration costs one solve (enforce). It adds the best combination of the directions known, kept from earlier
+/// iterations and evaluations with their responses, and a new one, the preconditioned residual. Without the past these
+/// are conjugate gradients.
+///
+/// Where the mean velocity of a triply periodic flow is not prescribed it follows from the balance of forces: it is an
+/// unknown c more, with sum lambda = given, A lambda + c = U - u. Directions then have no net force.
+class RigidSurface {
+ public:
+  double tolerance = 1e-3;    ///< largest slip relative to the largest speed
+  int max_solves = 100;       ///< of an evaluation, including the first
+  int most_directions = 64;
+  bool free_mean = false;
+
+  /// New markers at new places, three numbers each; all that is known of others is forgotten.
+  void set_markers(const Flow &flow, KernelKind kernel, int count, const double *position,
+                   const int *body);
+
+  /// The markers have moved, those of a body in parallel. Collective, like what follows.
+  void move(const double *position);
+
+  int count() const { return markers_.count; }
+
+  /// Rows as in set_markers: velocities wanted; forces on the fluid of the last evaluation and of that before it.
+  double *target() { return target_.data(); }
+  double *force() { return force_.data(); }
+  double *earlier_force() { return earlier_.data(); }
+
+  struct Times {
+    double last = 0, earlier = 0;
+    int known = 0;    ///< of the two
+  };
+  Times times;
+
+  /// Between clear_force and gather_force of Flow: guesses the forces of a time and spreads them. `others` is the sum of
+  /// this rank's share of all other forces; it counts for a free mean only. Sets the mean velocity of the flow's drive,
+  /// then. Returns what spread does.
+  int spread(Flow &flow, double time, const Vec3 &others);
+
+  struct Outcome {
+    int solves = 1;
+    double slip = 0;    ///< largest at a marker, relative to the largest speed of fluid and markers
+    bool converged = false;
+  };
+
+  /// After solve: corrects forces and flow. The ghosts of the velocity are filled.
+  Outcome enforce(Flow &flow);
+
+  std::size_t bytes() const;
+
+ private:
+  using Vector = Eigen::VectorXd;
+  using Columns = Eigen::MatrixXd;
+
+  KernelKind kernel_ = KernelKind::peskin4;
+  std::vector<int> index_;
+  Markers markers_;
+  PatchMobility mobility_;
+  Vector position_, target_, force_, earlier_;
+  Vector residual_, step_, response_, direction_, change_;
+  Vec3 mean_{0, 0, 0};
+
+  // net force: forces of the preconditioner for unit velocities, and the inverse of their sums
+  Eigen::Matrix<double, Eigen::Dynamic, 3> uniform_;
+  Eigen::Matrix3d drag_;
+
+  // directions known: A-orthonormal, with their responses and how much they were of use lately
+  Columns directions_, responses_;
+  Vector use_, shares_;
+  int known_ = 0;
+  double length_ =
+      1;    ///< of a step along the preconditioned residual, as it was best the last time
+
+  void forget() { known_ = 0; }
+  void precondition(const Flow &flow, const Vector &velocity, Vector &force);
+  Eigen::Vector3d uniform_part(const Flow &flow, const Vector &velocity) const;
+  void add_direction(double scale);
+};
+
+}    // namespace fluid
