@@ -1,5 +1,7 @@
 #include "patch_mobility.h"
 
+#include "lattice_mobility.h"
+
 #include <Eigen/Cholesky>
 
 #include <cmath>
@@ -9,41 +11,11 @@ namespace fluid {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 // Added to the mobility of each marker with itself, relative to it. Markers closer than a cell make patches nearly
 // singular; what they leave undetermined needs no force.
-constexpr double regularisation = 0.02;
-
-/// Mobility of two Gaussian blobs of standard deviation sigma / sqrt(2) at the distance r:
-///   f I + g r r / r^2, from the Stokeslet (I lap - grad grad) H / (8 pi viscosity),
-/// where H is the distance averaged over both blobs.
-struct BlobPair {
-  double f, g;
-
-  BlobPair(double r, double sigma, double viscosity)
-  {
-    const double factor = 1 / (8 * pi * viscosity), s = r / sigma;
-    const double peak = std::sqrt(2 / pi) / sigma;
-    if (s < 1e-3) {    // the error is of order s^2
-      f = factor * 4.0 / 3.0 * peak;
-      g = 0;
-      return;
-    }
-    const double bell = peak * std::exp(-0.5 * s * s), error = std::erf(s / std::sqrt(2.0)) / r;
-    const double first = error * (1 - 1 / (s * s)) + bell / (s * s);    // H' / r
-    const double second = 2 * (error - first);                          // H''
-    f = factor * (second + first);
-    g = factor * (first - second);
-  }
-};
+double regularisation = getenv("REG") ? atof(getenv("REG")) : 0.02;
 
 }    // namespace
-
-double marker_radius(KernelKind kernel)
-{
-  return kernel == KernelKind::peskin4 ? 1.25 : 0.91;
-}
 
 void PatchMobility::build(KernelKind kernel, const Grid &grid, double viscosity, int count,
                           const double *position, const int *body)
@@ -55,29 +27,24 @@ void PatchMobility::build(KernelKind kernel, const Grid &grid, double viscosity,
   for (int first = 0; first < count;) {
     int last = first;
     while (last < count && body[order_[last]] == body[order_[first]]) ++last;
-    divide(first, last, position);
+    divide(grid, first, last, position);
     first = last;
   }
 
-  const double radius = marker_radius(kernel) * std::cbrt(grid.cell_volume());
-  const double sigma = std::sqrt(2 / pi) * radius;    // the same mobility of one blob
-  const double self = 1 / (6 * pi * viscosity * radius);
+  if (count == 0) return;
+  const LatticeMobility lattice(kernel, grid, viscosity);
   int largest = 0;
   for (Patch &patch : patches_) {
     largest = std::max(largest, patch.count);
     Eigen::MatrixXd mobility(3 * patch.count, 3 * patch.count);
     for (int n = 0; n < patch.count; ++n)
       for (int m = 0; m <= n; ++m) {
-        const Eigen::Map<const Eigen::Vector3d> a(position + 3 * order_[patch.first + n]),
-            b(position + 3 * order_[patch.first + m]);
-        const Eigen::Vector3d apart = a - b;
-        const double r = apart.norm();
-        const BlobPair pair(r, sigma, viscosity);
-        Eigen::Matrix3d block = pair.f * Eigen::Matrix3d::Identity();
-        if (r > 0) block += pair.g / (r * r) * apart * apart.transpose();
-        if (n == m) block.diagonal().array() += regularisation * self;
+        Eigen::Matrix<double, 3, 3, Eigen::RowMajor> block;
+        lattice.pair(position + 3 * order_[patch.first + n], position + 3 * order_[patch.first + m],
+                     block.data());
+        if (n == m) block.diagonal().array() += regularisation * lattice.self();
         mobility.block<3, 3>(3 * n, 3 * m) = block;
-        mobility.block<3, 3>(3 * m, 3 * n) = block;
+        mobility.block<3, 3>(3 * m, 3 * n) = block.transpose();
       }
     patch.inverse =
         mobility.llt().solve(Eigen::MatrixXd::Identity(mobility.rows(), mobility.cols()));
@@ -88,28 +55,29 @@ void PatchMobility::build(KernelKind kernel, const Grid &grid, double viscosity,
 }
 
 /// Halves the longest side until a patch is small enough.
-void PatchMobility::divide(int first, int last, const double *position)
+void PatchMobility::divide(const Grid &grid, int first, int last, const double *position)
 {
-  if (last - first <= largest_patch) {
-    if (last > first) patches_.push_back({first, last - first, {}});
-    return;
-  }
   Eigen::Array3d lo = Eigen::Array3d::Constant(HUGE_VAL), hi = -lo;
   for (int n = first; n < last; ++n) {
     const Eigen::Map<const Eigen::Array3d> x(position + 3 * order_[n]);
     lo = lo.min(x);
     hi = hi.max(x);
   }
+  const Eigen::Map<const Eigen::Array3d> spacing(grid.spacing.data());
   int side;
-  (hi - lo).maxCoeff(&side);
+  const double longest = ((hi - lo) / spacing).maxCoeff(&side);
+  if (last - first <= largest_patch && longest < LatticeMobility::reach) {
+    patches_.push_back({first, last - first, {}});
+    return;
+  }
   const int middle = (first + last) / 2;
   std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
                    [&](int a, int b) {
                      const double x = position[3 * a + side], y = position[3 * b + side];
                      return x < y || (x == y && a < b);
                    });
-  divide(first, middle, position);
-  divide(middle, last, position);
+  divide(grid, first, middle, position);
+  divide(grid, middle, last, position);
 }
 
 void PatchMobility::apply(const double *velocity, double *force)

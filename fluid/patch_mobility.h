@@ -7,11 +7,10 @@
 namespace fluid {
 
 /// Approximate inverse of the mobility of the markers of rigid surfaces: from velocities to forces. The markers of this
-/// rank are divided into compact patches. Within a patch the mobility is that of blobs in unbounded steady Stokes flow,
-/// whose size is that of the kernel; between patches it is left out.
+/// rank are divided into compact patches. Within a patch the mobility is that of the grid, between patches it is left out.
 class PatchMobility {
  public:
-  static constexpr int largest_patch = 160;    ///< markers
+  static inline int largest_patch = getenv("PATCH") ? atoi(getenv("PATCH")) : 160;    ///< markers
 
   /// Three numbers a marker; those of different bodies, which may move relative to each other, share no patch.
   void build(KernelKind kernel, const Grid &grid, double viscosity, int count,
@@ -31,10 +30,7 @@ class PatchMobility {
   std::vector<Patch> patches_;
   Eigen::VectorXd gathered_, solved_;
 
-  void divide(int first, int last, const double *position);
+  void divide(const Grid &grid, int first, int last, const double *position);
 };
-
-/// Radius of a sphere in unbounded flow with the mobility of one marker, over the spacing of the grid.
-double marker_radius(KernelKind kernel);
 
 }    // namespace fluid

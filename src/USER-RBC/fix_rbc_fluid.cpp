@@ -1,6 +1,8 @@
 #include "fix_rbc_fluid.h"
 
 #include "fix_rbc_ib.h"
+#include "fix_rbc_wall.h"
+#include "rbc_rigid_walls.h"
 
 #include "comm.h"
 #include "domain.h"
@@ -80,7 +82,7 @@ void FixRBCFluid::parse_vector(int iarg, int narg, char **arg, const char *keywo
 
 void FixRBCFluid::parse(int narg, char **arg)
 {
-  bool wall_given[2] = {false, false}, mean_given = false, free_mean = false;
+  bool wall_given[2] = {false, false};
   regime.viscosity = regime.density = 0;
   int iarg = 3;
   const auto need = [&](int n, const char *keyword) {
@@ -192,17 +194,7 @@ void FixRBCFluid::parse(int narg, char **arg)
     error->all(FLERR,
                "Fix rbc/fluid scheme projection needs inertia unsteady or convective: steady "
                "flow has no step to split");
-  if (!has_inertia() && free_mean)
-    error->all(FLERR, "Fix rbc/fluid mean force needs inertia unsteady or convective: without "
-                      "inertia a net force has nothing to accelerate");
-  regime.hold_mean = mean_given ? !free_mean : !has_inertia();
-  if (!walls && regime.hold_mean && comm->me == 0)
-    for (const NumberOrVariable &component : drive.body)
-      if (component.is_variable() || component.value(lmp) != 0) {
-        error->warning(FLERR, "Fix rbc/fluid body has no effect in a triply periodic box whose "
-                              "mean velocity is held: a pressure gradient balances it");
-        break;
-      }
+  regime.hold_mean = !has_inertia() || (mean_given && !free_mean);
   if (target_spacing == 0 && cells[0] == 0) error->all(FLERR, "Fix rbc/fluid needs dx or grid");
   if (target_spacing > 0 && cells[0] > 0)
     error->all(FLERR, "Fix rbc/fluid takes either dx or grid, not both");
@@ -265,7 +257,7 @@ void FixRBCFluid::check_grid() const
 
 int FixRBCFluid::layers_needed() const
 {
-  if (!driven) return 0;
+  if (!driven && !rigid) return 0;
   double layers = 0;
   for (int d = 0; d < 3; ++d)
     layers = std::max(layers, 0.5 * neighbor->skin / (domain->prd[d] / cells[d]) + cells_per_step);
@@ -346,7 +338,56 @@ void FixRBCFluid::init()
                  driver, cells_per_step, half, id);
   }
   driven = !driver.empty();
+  find_walls();
   if (layers_needed() != ghost_layers) build_flow();
+}
+
+/* ----------------------------------------------------------------------
+   with walls the mean velocity of a triply periodic box follows from the balance of forces unless it is given
+------------------------------------------------------------------------- */
+
+void FixRBCFluid::find_walls()
+{
+  const bool balance = !walls && !has_inertia() && !(mean_given && !free_mean);
+  if (!rigid) rigid = std::make_unique<RigidWalls>(lmp);
+  if (!rigid->connect(id, balance)) rigid.reset();
+  if (rigid && has_inertia())
+    error->all(FLERR, "{} needs fix rbc/fluid {} inertia none", rigid->first()->style_name(), id);
+  if (rigid) return;
+  if (!has_inertia() && free_mean)
+    error->all(FLERR, "Fix rbc/fluid mean force needs inertia unsteady or convective, or a fix "
+                      "rbc/wall: without them a net force has nothing to accelerate or to act on");
+  if (walls || !regime.hold_mean || comm->me != 0) return;
+  for (const NumberOrVariable &component : drive.body)
+    if (component.is_variable() || component.value(lmp) != 0) {
+      error->warning(FLERR, "Fix rbc/fluid body has no effect in a triply periodic box whose "
+                            "mean velocity is held: a pressure gradient balances it");
+      break;
+    }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCFluid::spread_walls(const std::array<double, 3> &others, CollectiveStop &report)
+{
+  if (!rigid) return;
+  std::array<double, 3> sum = others;
+  const double volume = domain->xprd * domain->yprd * domain->zprd;
+  if (comm->me == 0)
+    for (int d = 0; d < 3; ++d) sum[d] += current_flow->drive.body[d] * volume;
+  const double end = update->atime + (update->ntimestep - update->atimestep) * update->dt;
+  rigid->spread(*current_flow, end - (1 - fraction) * update->dt, sum, report);
+}
+
+void FixRBCFluid::enforce_walls()
+{
+  if (rigid) rigid->enforce(*current_flow);
+}
+
+void FixRBCFluid::place_walls(double at)
+{
+  fraction = at;
+  if (rigid) rigid->place(at);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -371,19 +412,26 @@ void FixRBCFluid::final_integrate()
     drive_end();
     current_flow->finish_step();
     flow_changed();
-  } else if (drive.varies()) {
+  } else if (drive.varies() || (rigid && rigid->moves())) {
     drive_now();
     advance_alone();
   }
 }
 
 /* ----------------------------------------------------------------------
-   steady flow without immersed boundaries
+   steady flow without other immersed boundaries than walls
 ------------------------------------------------------------------------- */
 
 void FixRBCFluid::advance_alone()
 {
+  if (rigid) {
+    current_flow->clear_force();
+    spread_walls({0, 0, 0}, stop);
+    stop.check();
+    current_flow->gather_force();
+  }
   current_flow->solve();
+  enforce_walls();
   flow_changed();
 }
 
@@ -441,6 +489,7 @@ void FixRBCFluid::drive_at_setup()
 
 void FixRBCFluid::drive_now()
 {
+  fraction = 1;
   current_flow->drive = drive.evaluate();
 }
 
@@ -449,11 +498,13 @@ void FixRBCFluid::drive_now()
 void FixRBCFluid::begin_step(bool again)
 {
   drive.begin_step(again);
+  if (rigid) rigid->begin_step(again);
 }
 
-void FixRBCFluid::drive_at(double fraction)
+void FixRBCFluid::drive_at(double at)
 {
-  current_flow->drive = drive.at(fraction);
+  place_walls(at);
+  current_flow->drive = drive.at(at);
 }
 
 void FixRBCFluid::drive_end()
@@ -562,6 +613,7 @@ void FixRBCFluid::count_from_here()
   first_traffic = traffic();
   first_solve = solves();
   first_step = update->ntimestep;
+  if (rigid) rigid->reset_counts();
 }
 
 fluid::Traffic FixRBCFluid::traffic() const
@@ -591,6 +643,7 @@ std::string FixRBCFluid::costs(bigint steps) const
 
 void FixRBCFluid::post_run()
 {
+  if (rigid && comm->me == 0) rigid->warn();
   if (driven) return;
   const bigint steps = update->ntimestep - first_step;
   const std::string text = fmt::format(

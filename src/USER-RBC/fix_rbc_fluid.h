@@ -40,7 +40,7 @@ class FixRBCFluid : public Fix {
   int get_griddata_by_name(int, const std::string &, int &) override;
   void *get_griddata_by_index(int) override;
 
-  // used by fix rbc/ib, which drives the flow
+  // used by fix rbc/wall and by fix rbc/ib, which drives the flow
 
   fluid::Flow &flow() { return *current_flow; }
   bool has_inertia() const { return regime.inertia != fluid::Inertia::none; }
@@ -52,6 +52,16 @@ class FixRBCFluid : public Fix {
   void flow_changed();
   bigint solves() const { return current_flow->solves() + earlier_solves; }
   double smallest_spacing() const;
+
+  bool is_driven() const { return driven; }
+  class RigidWalls *rigid_walls() const { return rigid.get(); }
+
+  /// Both do nothing without walls: before gather_force and after solve. `others` is this task's sum of all other forces
+  /// on the fluid.
+  void spread_walls(const std::array<double, 3> &others, CollectiveStop &stop);
+  void enforce_walls();
+  void place_walls(double fraction);
+
   void count_from_here();
   std::string costs(bigint steps) const;
 
@@ -60,7 +70,8 @@ class FixRBCFluid : public Fix {
   std::array<int, 3> cells{};
   double target_spacing = 0;
   fluid::Regime regime;
-  bool walls = false;
+  bool walls = false;    // plates
+  bool mean_given = false, free_mean = false;
   FlowDrive drive;
 
   std::unique_ptr<class Grid3d> grid;
@@ -81,10 +92,14 @@ class FixRBCFluid : public Fix {
   FlowRestart restarts;
   CollectiveStop stop;
 
+  std::unique_ptr<RigidWalls> rigid;    // surfaces of atoms; null without them
+  double fraction = 1;                  // of the step, at which the drive is
+
   void parse(int, char **);
   void parse_vector(int, int, char **, const char *, FlowDrive::Vector &);
   void choose_grid();
   void check_grid() const;
+  void find_walls();
   int layers_needed() const;
   void build_flow();
   void advance_alone();

@@ -10,6 +10,7 @@
 #include "group.h"
 #include "modify.h"
 #include "pair_rbc_jkr.h"
+#include "rbc_rigid_walls.h"
 #include "update.h"
 
 #include <algorithm>
@@ -243,6 +244,7 @@ void FixRBCIB::init()
   if (iterates && scheme != Scheme::DIRECT && !viscous)
     error->all(FLERR, "Fix rbc/ib tol and maxiter need scheme direct or a fix rbc/membrane with "
                       "viscosity");
+  for (const Fix *wall : modify->get_fix_by_style("^rbc/wall$")) check_apart(wall);
   motion->connect(fluid_fix, membranes);
   steady->start_run(fluid_fix, late_forces);
 }
@@ -254,14 +256,31 @@ void FixRBCIB::init()
 void FixRBCIB::check_moves_all(const Fix *membrane) const
 {
   int left_out = 0;
+  int moved = groupbit;    // or held
+  for (const Fix *wall : modify->get_fix_by_style("^rbc/wall$")) moved |= wall->groupbit;
   for (int i = 0; i < atom->nlocal; ++i)
-    if ((atom->mask[i] & membrane->groupbit) && !(atom->mask[i] & groupbit)) left_out = 1;
+    if ((atom->mask[i] & membrane->groupbit) && !(atom->mask[i] & moved)) left_out = 1;
   MPI_Allreduce(MPI_IN_PLACE, &left_out, 1, MPI_INT, MPI_MAX, world);
   if (left_out)
     error->all(FLERR,
                "Fix rbc/ib {} does not move all atoms of fix rbc/membrane {}, which keeps the "
                "volume of its cells or has viscosity",
                id, membrane->id);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCIB::check_apart(const Fix *wall) const
+{
+  int shared = 0;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if ((atom->mask[i] & wall->groupbit) && (atom->mask[i] & groupbit)) shared = 1;
+  MPI_Allreduce(MPI_IN_PLACE, &shared, 1, MPI_INT, MPI_MAX, world);
+  if (shared)
+    error->all(FLERR,
+               "Fix rbc/ib {} would move atoms of fix rbc/wall {}: their groups must have no atoms "
+               "in common",
+               id, wall->id);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -498,6 +517,10 @@ void FixRBCIB::post_run()
     }
     names.insert(names.begin() + 1, {"Detection", "Contact"});
     seconds.insert(seconds.begin() + 1, {finding, interacting});
+  }
+  if (const RigidWalls *const walls = fluid_fix->rigid_walls()) {
+    names.emplace_back("Walls");
+    seconds.push_back(walls->stopwatch.seconds());
   }
   names.emplace_back("Total");
   seconds.push_back(std::accumulate(seconds.begin(), seconds.end(), 0.0));

@@ -84,6 +84,7 @@ class FixRBCIB : public Fix {
   void step_fluid();
   void couple_masses();
   void check_moves_all(const Fix *) const;
+  void check_apart(const Fix *wall) const;
 };
 
 }    // namespace LAMMPS_NS

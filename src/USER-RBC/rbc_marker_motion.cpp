@@ -95,6 +95,7 @@ void MarkerMotion::spread_forces()
   const int outside = flow.spread(kernel_, markers(), rows(atom->x), rows(atom->f), force->ftm2v);
   if (outside >= 0) report_outside(outside);
   spreading.stop();
+  if (fluid_->rigid_walls() && !probing) fluid_->spread_walls(total_force(), *stop);
   stop->check();
 
   exchanging.start();
@@ -102,12 +103,23 @@ void MarkerMotion::spread_forces()
   exchanging.stop();
 }
 
+std::array<double, 3> MarkerMotion::total_force() const
+{
+  std::array<double, 3> sum{};
+  for (int i : members_)
+    for (int d = 0; d < 3; ++d) sum[d] += atom->f[i][d] * force->ftm2v;
+  return sum;
+}
+
+/* ---------------------------------------------------------------------- */
+
 void MarkerMotion::solve()
 {
   solving.start();
   fluid_->flow().solve();
-  fluid_->flow_changed();
   solving.stop();
+  if (!probing) fluid_->enforce_walls();
+  fluid_->flow_changed();
 }
 
 /* ----------------------------------------------------------------------
@@ -156,8 +168,9 @@ void MarkerMotion::update_velocities(Stage stage)
     return;
   }
 
-  bool thinning = false;
-  for (const FixRBCMembrane *membrane : viscous_) thinning = thinning || membrane->is_thinning();
+  // walls are left out of the mobility of the markers: rounds follow here, too
+  bool rounds = fluid_->rigid_walls() != nullptr;
+  for (const FixRBCMembrane *membrane : viscous_) rounds = rounds || membrane->is_thinning();
   double count = static_cast<double>(members_.size());
   sum(&count, 1);
 
@@ -185,10 +198,10 @@ void MarkerMotion::update_velocities(Stage stage)
           resistance(p, result);
           for (std::size_t i = 0; i < p.size(); ++i) result[i] += p[i];
         },
-        *this, residual_, thinning ? allowed / 2 : allowed, correction_);
+        *this, residual_, rounds ? allowed / 2 : allowed, correction_);
     correct_forces();
     velocities_of_forces(stage);
-    if (thinning) continue;
+    if (rounds) continue;
     if (!(linear_error <= allowed)) ++unconverged;
     break;
   }

@@ -7,6 +7,7 @@
 #include "rbc_collective_stop.h"
 #include "stopwatch.h"
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -68,7 +69,8 @@ class MarkerMotion : protected Pointers, public rbc::Motion {
   void report(int i, const std::string &what);
   std::shared_ptr<CollectiveStop> stop;
 
-  /// Velocities are those of positions that the atoms do not take, of any size and without viscous forces.
+  /// Velocities are those of positions that the atoms do not take, of any size, without viscous forces and without
+  /// rigid walls, which make what relaxes slower.
   bool probing = false;
 
   /// Error allowed in the velocities where forces depend on them, relative to the fastest marker.
@@ -93,6 +95,7 @@ class MarkerMotion : protected Pointers, public rbc::Motion {
   rbc::Numbers applied_, response_;    // of all atoms here
 
   void velocities_of_forces(Stage stage);
+  std::array<double, 3> total_force() const;
   void report_too_fast(Stage stage);
   void find_residual();
   void correct_forces();

@@ -109,6 +109,7 @@ void SteadySteps::advance()
     again = true;
   } while (!attempt());
   motion_.store(position_, atom->x);
+  fluid_->place_walls(1);
   motion_.check_positions();
   motion_.stop->check();
   remember();

@@ -6,5 +6,6 @@
 #include "fix_rbc_ib.h"
 #include "fix_rbc_membrane.h"
 #include "fix_rbc_vtk.h"
+#include "fix_rbc_wall.h"
 #include "pair_rbc_jkr.h"
 #include "rbc_create.h"
