@@ -81,12 +81,15 @@ void RigidSurface::set_markers(const Flow &flow, KernelKind kernel, int count,
   shares_.setZero(most_directions);
   forget();
 
-  mobility_.build(kernel, flow.grid(), flow.regime().viscosity, count, position, body);
+  resistance_.build(flow, kernel, count, position, body);
+  compliance_.resize(numbers);
+  for (int n = 0; n < count; ++n)
+    compliance_.segment<3>(3 * n).setConstant(resistance_.compliance(n));
   if (!free_mean) return;
   uniform_.resize(numbers, 3);
   for (int d = 0; d < 3; ++d) {
     rows(change_).colwise() = Eigen::Vector3d::Unit(d);
-    mobility_.apply(change_.data(), direction_.data());
+    resistance_.apply(change_.data(), direction_.data());
     uniform_.col(d) = direction_;
     drag_.col(d) = rows(direction_).rowwise().sum();
   }
@@ -138,7 +141,7 @@ RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
   Outcome outcome;
   flow.share_velocity();
   flow.interpolate(kernel_, markers_, position_.data(), response_.data());
-  residual_ = target_ - response_;
+  residual_ = target_ - response_ - compliance_.cwiseProduct(force_);
 
   // residuals are what their uniform part leaves of them
   Vec3 mean_change{0, 0, 0};
@@ -185,6 +188,7 @@ RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
     ++outcome.solves;
     flow.add_response(1.0);
     force_ += step_;
+    response_ += compliance_.cwiseProduct(step_);
     residual_ -= response_;
     if (enough) continue;
 
@@ -206,7 +210,7 @@ RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
 /// Positive definite on forces without a sum.
 void RigidSurface::precondition(const Flow &flow, const Vector &velocity, Vector &force)
 {
-  mobility_.apply(velocity.data(), force.data());
+  resistance_.apply(velocity.data(), force.data());
   if (!free_mean) return;
   Eigen::Vector3d sum = rows(force).rowwise().sum();
   reduce(sum.data(), 3, MPI_SUM, flow);
@@ -232,7 +236,7 @@ std::size_t RigidSurface::bytes() const
   for (const Vector *vector : {&position_, &target_, &force_, &earlier_, &residual_, &step_,
                                &response_, &direction_, &change_, &use_, &shares_})
     numbers += vector->size();
-  return numbers * sizeof(double) + mobility_.bytes();
+  return numbers * sizeof(double) + resistance_.bytes();
 }
 
 }    // namespace fluid

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "flow.h"
-#include "patch_mobility.h"
+#include "marker_resistance.h"
+
+#include <Eigen/Core>
 
 namespace fluid {
 
@@ -65,8 +66,9 @@ class RigidSurface {
   KernelKind kernel_ = KernelKind::peskin4;
   std::vector<int> index_;
   Markers markers_;
-  PatchMobility mobility_;
-  Vector position_, target_, force_, earlier_;
+  MarkerResistance resistance_;
+
+  Vector position_, target_, force_, earlier_, compliance_;
   Vector residual_, step_, response_, direction_, change_;
   Vec3 mean_{0, 0, 0};
 

@@ -1,0 +1,327 @@
+#include "marker_resistance.h"
+
+#include <Eigen/Cholesky>
+
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+namespace fluid {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// Distance of the markers that another depends on, over its distance from the nearest before it; how many at most; ratio
+// of that distance from level to level.
+constexpr double reach = 3;
+constexpr int most_rows = 40;
+constexpr double refinement = 0.75;
+
+// Relative to the spacing of the grid: the slip length, and the radius of the discs in which markers are counted to find
+// how much of the surface each stands for.
+constexpr double slip_length = 0.001;
+constexpr double disc = 2;
+
+// Added to the mobility of each marker with itself, relative to it.
+constexpr double regularisation = 0.005;
+
+/// Mobility of two Gaussian blobs of standard deviation sigma / sqrt(2) at the distance r:
+///   f I + g r r / r^2, from the Stokeslet (I lap - grad grad) H / (8 pi viscosity),
+/// where H is the distance averaged over both blobs.
+struct BlobPair {
+  double f, g;
+
+  BlobPair(double r, double sigma, double viscosity)
+  {
+    const double factor = 1 / (8 * pi * viscosity), s = r / sigma;
+    const double peak = std::sqrt(2 / pi) / sigma;
+    if (s < 1e-3) {    // the error is of order s^2
+      f = factor * 4.0 / 3.0 * peak;
+      g = 0;
+      return;
+    }
+    const double bell = peak * std::exp(-0.5 * s * s), error = std::erf(s / std::sqrt(2.0)) / r;
+    const double first = error * (1 - 1 / (s * s)) + bell / (s * s);    // H' / r
+    const double second = 2 * (error - first);                          // H''
+    f = factor * (second + first);
+    g = factor * (first - second);
+  }
+};
+
+/// All markers, where distances are those of the nearest images.
+struct Cloud {
+  std::vector<Vec3> position;
+  std::vector<int> body;
+  Vec3 origin, period;
+  bool periodic[3];
+
+  Vec3 apart(int from, int to) const
+  {
+    Vec3 r;
+    for (int d = 0; d < 3; ++d) {
+      r[d] = position[to][d] - position[from][d];
+      if (periodic[d]) r[d] -= period[d] * std::round(r[d] / period[d]);
+    }
+    return r;
+  }
+  double distance2(int a, int b) const
+  {
+    const Vec3 r = apart(a, b);
+    return r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
+  }
+};
+
+/// Markers in bins of at least a given size.
+class Bins {
+ public:
+  Bins(const Cloud &cloud, double size) : cloud_(cloud)
+  {
+    for (int d = 0; d < 3; ++d) {
+      n_[d] = std::max(1, static_cast<int>(std::min(cloud.period[d] / size, 200.0)));
+      scale_[d] = n_[d] / cloud.period[d];
+    }
+    heads_.assign(std::size_t(n_[0]) * n_[1] * n_[2], -1);
+    next_.assign(cloud.position.size(), -1);
+  }
+
+  void add(int marker)
+  {
+    const auto bin = bin_of(marker);
+    int &head = heads_[(std::size_t(bin[2]) * n_[1] + bin[1]) * n_[0] + bin[0]];
+    next_[marker] = head;
+    head = marker;
+  }
+
+  /// Visits markers near another until visit(marker) is false; returns whether it never was.
+  template <typename Visit> bool near(int marker, Visit visit) const
+  {
+    const auto bin = bin_of(marker);
+    std::array<int, 3> lo, hi;
+    for (int d = 0; d < 3; ++d) {
+      lo[d] = n_[d] < 3 ? 0 : bin[d] - 1;
+      hi[d] = n_[d] < 3 ? n_[d] - 1 : bin[d] + 1;
+    }
+    for (int k = lo[2]; k <= hi[2]; ++k)
+      for (int j = lo[1]; j <= hi[1]; ++j)
+        for (int i = lo[0]; i <= hi[0]; ++i) {
+          const std::array<int, 3> at{wrap(i, 0), wrap(j, 1), wrap(k, 2)};
+          int other = heads_[(std::size_t(at[2]) * n_[1] + at[1]) * n_[0] + at[0]];
+          for (; other >= 0; other = next_[other])
+            if (!visit(other)) return false;
+        }
+    return true;
+  }
+
+ private:
+  const Cloud &cloud_;
+  std::array<int, 3> n_;
+  Vec3 scale_;
+  std::vector<int> heads_, next_;
+
+  int wrap(int i, int d) const { return (i % n_[d] + n_[d]) % n_[d]; }
+  std::array<int, 3> bin_of(int marker) const
+  {
+    std::array<int, 3> bin;
+    for (int d = 0; d < 3; ++d)
+      bin[d] = wrap(
+          static_cast<int>(std::floor((cloud_.position[marker][d] - cloud_.origin[d]) * scale_[d])),
+          d);
+    return bin;
+  }
+};
+
+}    // namespace
+
+double marker_radius(KernelKind kernel)
+{
+  return kernel == KernelKind::peskin4 ? 1.25 : 0.91;
+}
+
+void MarkerResistance::build(const Flow &flow, KernelKind kernel, int count, const double *position,
+                             const int *body)
+{
+  comm_ = flow.decomposition().comm;
+  const int tasks = flow.decomposition().ranks(), me = flow.decomposition().rank;
+  const Grid &grid = flow.grid();
+  count_ = count;
+  numbers_.resize(tasks);
+  offsets_.resize(tasks);
+  std::vector<int> counts(tasks), firsts(tasks);
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm_);
+  for (int r = 0; r < tasks; ++r) {
+    numbers_[r] = 3 * counts[r];
+    firsts[r] = r > 0 ? firsts[r - 1] + counts[r - 1] : 0;
+    offsets_[r] = 3 * firsts[r];
+  }
+  first_ = firsts[me];
+  const int all = firsts[tasks - 1] + counts[tasks - 1];
+  all_.resize(3 * std::size_t(all));
+
+  Cloud cloud;
+  cloud.position.resize(all);
+  cloud.body.resize(all);
+  cloud.origin = grid.origin;
+  for (int d = 0; d < 3; ++d) {
+    cloud.period[d] = grid.cells[d] * grid.spacing[d];
+    cloud.periodic[d] = d < 2 || !grid.walls;
+  }
+  MPI_Allgatherv(position, 3 * count, MPI_DOUBLE, cloud.position.data(), numbers_.data(),
+                 offsets_.data(), MPI_DOUBLE, comm_);
+  MPI_Allgatherv(body, count, MPI_INT, cloud.body.data(), counts.data(), firsts.data(), MPI_INT,
+                 comm_);
+
+  // in an order that does not depend on who owns which
+  std::vector<int> waiting(all);
+  std::iota(waiting.begin(), waiting.end(), 0);
+  std::sort(waiting.begin(), waiting.end(), [&](int a, int b) {
+    return std::tie(cloud.body[a], cloud.position[a]) < std::tie(cloud.body[b], cloud.position[b]);
+  });
+
+  const double h = std::cbrt(grid.cell_volume()), radius = marker_radius(kernel) * h;
+  std::vector<std::vector<int>> columns(count);    // the marker itself first
+  std::vector<int> before, now;
+  double spacing = 0.5 * *std::max_element(cloud.period.begin(), cloud.period.end());
+  for (; !waiting.empty(); spacing *= refinement) {
+    // markers of this level: not nearer to each other, and to those of earlier levels, than the spacing
+    const bool last = spacing < 0.1 * h;
+    Bins sparse(cloud, spacing);
+    for (int marker : before) sparse.add(marker);
+    now.clear();
+    auto left = waiting.begin();
+    for (int marker : waiting) {
+      const bool free = last || sparse.near(marker, [&](int other) {
+        return cloud.body[other] != cloud.body[marker] ||
+               cloud.distance2(marker, other) >= spacing * spacing;
+      });
+      if (free) {
+        sparse.add(marker);
+        now.push_back(marker);
+      } else
+        *left++ = marker;
+    }
+    waiting.erase(left, waiting.end());
+
+    const double far = reach * spacing;
+    Bins wide(cloud, far);
+    for (int marker : before) wide.add(marker);
+    std::vector<std::pair<double, int>> found;
+    for (int marker : now) {
+      const int mine = marker - first_;
+      if (mine >= 0 && mine < count) {
+        found.clear();
+        wide.near(marker, [&](int other) {
+          const double r2 = cloud.distance2(marker, other);
+          if (cloud.body[other] == cloud.body[marker] && r2 <= far * far)
+            found.emplace_back(r2, other);
+          return true;
+        });
+        const std::size_t keep = std::min<std::size_t>(found.size(), most_rows);
+        std::partial_sort(found.begin(), found.begin() + keep, found.end());
+        columns[mine] = {marker};
+        for (std::size_t n = 0; n < keep; ++n) columns[mine].push_back(found[n].second);
+      }
+      wide.add(marker);
+    }
+    before.insert(before.end(), now.begin(), now.end());
+  }
+
+  std::vector<double> compliances(all);
+  Bins close(cloud, disc * h);
+  for (int marker = 0; marker < all; ++marker) close.add(marker);
+  for (int marker = 0; marker < all; ++marker) {
+    int inside = 0;
+    close.near(marker, [&](int other) {
+      inside += cloud.body[other] == cloud.body[marker] &&
+                cloud.distance2(marker, other) < disc * disc * h * h;
+      return true;
+    });
+    const double area = pi * disc * disc * h * h / inside;
+    compliances[marker] = slip_length * h / (flow.regime().viscosity * area);
+  }
+  compliance_.assign(compliances.begin() + first_, compliances.begin() + first_ + count);
+
+  starts_.assign(1, 0);
+  rows_.clear();
+  blocks_.clear();
+  std::vector<Vec3> apart;
+  std::vector<double> yielding;
+  for (int n = 0; n < count; ++n) {
+    apart.clear();
+    yielding.clear();
+    for (int row : columns[n]) {
+      apart.push_back(cloud.apart(first_ + n, row));
+      yielding.push_back(compliances[row]);
+    }
+    rows_.insert(rows_.end(), columns[n].begin(), columns[n].end());
+    starts_.push_back(static_cast<int>(rows_.size()));
+    add_column(apart, yielding, flow.regime().viscosity, radius);
+  }
+}
+
+/// With the mobility M of the markers of a column, E those of its first: M^-1 E C^-T, where C C^T = E^T M^-1 E.
+void MarkerResistance::add_column(const std::vector<Vec3> &apart,
+                                  const std::vector<double> &compliance, double viscosity,
+                                  double radius)
+{
+  const double sigma = std::sqrt(2 / pi) * radius;    // the same mobility of one blob
+  const double extra = regularisation / (6 * pi * viscosity * radius);
+  const int n = static_cast<int>(apart.size());
+  Eigen::MatrixXd mobility(3 * n, 3 * n);
+  for (int a = 0; a < n; ++a)
+    for (int b = 0; b <= a; ++b) {
+      const Eigen::Vector3d r = Eigen::Map<const Eigen::Vector3d>(apart[a].data()) -
+                                Eigen::Map<const Eigen::Vector3d>(apart[b].data());
+      const double distance = r.norm();
+      const BlobPair pair(distance, sigma, viscosity);
+      Eigen::Matrix3d block = pair.f * Eigen::Matrix3d::Identity();
+      if (distance > 0) block += pair.g / (distance * distance) * r * r.transpose();
+      if (a == b) block.diagonal().array() += extra + compliance[a];
+      mobility.block<3, 3>(3 * a, 3 * b) = block;
+    }
+  Eigen::MatrixXd column = Eigen::MatrixXd::Zero(3 * n, 3);
+  column.topRows<3>().setIdentity();
+  mobility.llt().solveInPlace(column);
+  const Eigen::Matrix3d root = Eigen::Matrix3d(column.topRows<3>()).llt().matrixL();
+  column = root.triangularView<Eigen::Lower>().solve(column.transpose()).transpose().eval();
+  for (int a = 0; a < n; ++a)
+    for (int e = 0; e < 3; ++e)
+      for (int d = 0; d < 3; ++d) blocks_.push_back(column(3 * a + d, e));
+}
+
+void MarkerResistance::apply(const double *velocity, double *force)
+{
+  MPI_Allgatherv(velocity, 3 * count_, MPI_DOUBLE, all_.data(), numbers_.data(), offsets_.data(),
+                 MPI_DOUBLE, comm_);
+  for (int n = 0; n < count_; ++n) {
+    double sum[3] = {0, 0, 0};
+    for (int m = starts_[n]; m < starts_[n + 1]; ++m) {
+      const double *const u = all_.data() + 3 * std::size_t(rows_[m]),
+                          *b = &blocks_[9 * std::size_t(m)];
+      for (int e = 0; e < 3; ++e)
+        sum[e] += b[3 * e] * u[0] + b[3 * e + 1] * u[1] + b[3 * e + 2] * u[2];
+    }
+    std::copy_n(sum, 3, force + 3 * n);
+  }
+  std::fill(all_.begin(), all_.end(), 0.0);
+  for (int n = 0; n < count_; ++n) {
+    const double *const t = force + 3 * n;
+    for (int m = starts_[n]; m < starts_[n + 1]; ++m) {
+      double *const f = all_.data() + 3 * std::size_t(rows_[m]);
+      const double *const b = &blocks_[9 * std::size_t(m)];
+      for (int d = 0; d < 3; ++d) f[d] += b[d] * t[0] + b[3 + d] * t[1] + b[6 + d] * t[2];
+    }
+  }
+  if (numbers_.size() > 1)
+    MPI_Allreduce(MPI_IN_PLACE, all_.data(), static_cast<int>(all_.size()), MPI_DOUBLE, MPI_SUM,
+                  comm_);
+  std::copy_n(all_.data() + 3 * std::size_t(first_), 3 * count_, force);
+}
+
+std::size_t MarkerResistance::bytes() const
+{
+  return (starts_.capacity() + rows_.capacity()) * sizeof(int) +
+         (blocks_.capacity() + all_.capacity()) * sizeof(double);
+}
+
+}    // namespace fluid
