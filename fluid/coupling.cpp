@@ -121,6 +121,11 @@ void interpolate_with(const Grid &grid, const Markers &markers, const double *po
 
 }    // namespace
 
+double surface_offset(KernelKind kernel)
+{
+  return kernel == KernelKind::peskin4 ? Peskin4::surface_offset : Roma3::surface_offset;
+}
+
 int spread(KernelKind kernel, const Grid &grid, const Markers &markers, const double *position,
            const double *applied, double factor, const VectorField &force)
 {

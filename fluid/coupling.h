@@ -24,4 +24,9 @@ int spread(KernelKind kernel, const Grid &grid, const Markers &markers, const do
 void interpolate(KernelKind kernel, const Grid &grid, const Markers &markers,
                  const double *position, const VectorField &velocity, double *interpolated);
 
+/// How far behind the no-slip surface wanted, in cells, markers must be: the flow of a surface of markers is, to first
+/// order in the spacing, that of one so much further into the fluid (see Kernel). For flow on one side; where the other
+/// side is sheared by g times as much as this one it is 1 + g times as far.
+double surface_offset(KernelKind kernel);
+
 }    // namespace fluid

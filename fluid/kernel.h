@@ -7,10 +7,15 @@ namespace fluid {
 // Regularised delta functions of one direction. `weights(s, w)` takes a position s in units of the spacing,
 // writes the weights of the `width` grid points first, first + 1, ... and returns `first`. Weights are padded
 // with zeros to four, so that a row of points is always one SIMD register.
+//
+// A surface of markers that does not slip at the markers is, for the flow beside it, one that does not slip a part of
+// the spacing further into the fluid. For a plane in a shear flow on one side of it that part is half the mean distance
+// of two points, both spread by the kernel of the same marker; `surface_offset` is its mean over the marker's places.
 
 /// Four-point kernel of Peskin, Acta Numerica 11 (2002) 479, equations 6.27-6.28.
 struct Peskin4 {
   static constexpr int width = 4;
+  static constexpr double surface_offset = 0.3810;
 
   static int weights(double s, double *w)
   {
@@ -27,6 +32,7 @@ struct Peskin4 {
 /// Three-point kernel of Roma, Peskin & Berger, J. Comput. Phys. 153 (1999) 509, equation 22.
 struct Roma3 {
   static constexpr int width = 3;
+  static constexpr double surface_offset = 0.2662;
 
   static int weights(double s, double *w)
   {
