@@ -20,7 +20,7 @@ constexpr double refinement = 0.75;
 
 // Relative to the spacing of the grid: the slip length, and the radius of the discs in which markers are counted to find
 // how much of the surface each stands for.
-constexpr double slip_length = 0.001;
+constexpr double slip_length = 0.0003;
 constexpr double disc = 2;
 
 // Added to the mobility of each marker with itself, relative to it.
@@ -226,20 +226,38 @@ void MarkerResistance::build(const Flow &flow, KernelKind kernel, int count, con
     before.insert(before.end(), now.begin(), now.end());
   }
 
-  std::vector<double> compliances(all);
+  const double disc_area = pi * disc * disc * h * h;
+  const double slip = slip_length * h / flow.regime().viscosity;
+  std::vector<double> areas(all), compliances(all);
   Bins close(cloud, disc * h);
   for (int marker = 0; marker < all; ++marker) close.add(marker);
-  for (int marker = 0; marker < all; ++marker) {
-    int inside = 0;
+  const auto for_each_close = [&](int marker, auto visit) {
     close.near(marker, [&](int other) {
-      inside += cloud.body[other] == cloud.body[marker] &&
-                cloud.distance2(marker, other) < disc * disc * h * h;
+      if (cloud.body[other] == cloud.body[marker] &&
+          cloud.distance2(marker, other) < disc * disc * h * h)
+        visit(other);
       return true;
     });
-    const double area = pi * disc * disc * h * h / inside;
-    compliances[marker] = slip_length * h / (flow.regime().viscosity * area);
+  };
+  for (int marker = 0; marker < all; ++marker) {
+    int inside = 0;
+    for_each_close(marker, [&](int) { ++inside; });
+    areas[marker] = disc_area / inside;
+    compliances[marker] = slip / areas[marker];
   }
-  compliance_.assign(compliances.begin() + first_, compliances.begin() + first_ + count);
+  other_yield_ = slip / disc_area;
+  own_yield_.clear();
+  disc_.clear();
+  disc_starts_.assign(1, 0);
+  for (int n = 0; n < count; ++n) {
+    double covered = 0;
+    for_each_close(first_ + n, [&](int other) {
+      disc_.push_back(other);
+      covered += areas[other];
+    });
+    disc_starts_.push_back(static_cast<int>(disc_.size()));
+    own_yield_.push_back(other_yield_ * covered / areas[first_ + n]);
+  }
 
   starts_.assign(1, 0);
   rows_.clear();
@@ -318,9 +336,22 @@ void MarkerResistance::apply(const double *velocity, double *force)
   std::copy_n(all_.data() + 3 * std::size_t(first_), 3 * count_, force);
 }
 
+void MarkerResistance::yield(const double *force, double *velocity)
+{
+  MPI_Allgatherv(force, 3 * count_, MPI_DOUBLE, all_.data(), numbers_.data(), offsets_.data(),
+                 MPI_DOUBLE, comm_);
+  for (int n = 0; n < count_; ++n)
+    for (int d = 0; d < 3; ++d) {
+      double others = 0;
+      for (int m = disc_starts_[n]; m < disc_starts_[n + 1]; ++m)
+        others += all_[3 * std::size_t(disc_[m]) + d];
+      velocity[3 * n + d] = own_yield_[n] * force[3 * n + d] - other_yield_ * others;
+    }
+}
+
 std::size_t MarkerResistance::bytes() const
 {
-  return (starts_.capacity() + rows_.capacity()) * sizeof(int) +
+  return (starts_.capacity() + rows_.capacity() + disc_.capacity()) * sizeof(int) +
          (blocks_.capacity() + all_.capacity()) * sizeof(double);
 }
 

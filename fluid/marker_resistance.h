@@ -18,10 +18,11 @@ class MarkerResistance {
   void build(const Flow &flow, KernelKind kernel, int count, const double *position,
              const int *body);
 
-  /// Velocity that a marker yields to a unit force, beyond that of the flow: that of a surface with a slip length of a
-  /// thousandth of the grid's spacing. Forces that the kernel blurs away, as between markers much closer than a
-  /// spacing, would be without bounds otherwise.
-  double compliance(int marker) const { return compliance_[marker]; }
+  /// Velocity with which markers yield to forces, beyond that of the flow: as a slip length of a thousandth of the
+  /// grid's spacing would give for the part of the traction that differs from the mean within two spacings. Forces that
+  /// the kernel blurs away, as between markers much closer than a spacing, would be without bounds otherwise. Symmetric
+  /// and positive semidefinite. Collective.
+  void yield(const double *force, double *velocity);
 
   /// Collective.
   void apply(const double *velocity, double *force);
@@ -36,7 +37,12 @@ class MarkerResistance {
   // Columns of this task's markers: rows of markers, and 3 x 3 blocks.
   std::vector<int> starts_, rows_;
   std::vector<double> blocks_;
-  std::vector<double> all_, compliance_;
+  std::vector<double> all_;
+
+  // Markers within the disc about each of this task's, itself included; for its own force, and for that of the others.
+  std::vector<int> disc_starts_, disc_;
+  std::vector<double> own_yield_;
+  double other_yield_ = 0;
 
   void add_column(const std::vector<Vec3> &apart, const std::vector<double> &compliance,
                   double viscosity, double radius);

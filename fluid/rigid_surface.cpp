@@ -14,6 +14,9 @@ namespace {
 constexpr double farthest = 1.5;
 constexpr double sure = 0.8;
 
+// Of the slip allowed: where the residual is less than this part, what markers yield is all that is left.
+constexpr double negligible = 0.1;
+
 // Of the use of directions in the next evaluation that counts.
 constexpr double memory = 0.95;
 
@@ -71,7 +74,7 @@ void RigidSurface::set_markers(const Flow &flow, KernelKind kernel, int count,
   markers_ = {count, index_.data()};
   const std::ptrdiff_t numbers = 3 * std::ptrdiff_t(count);
   for (Vector *vector : {&target_, &force_, &earlier_}) vector->setZero(numbers);
-  for (Vector *vector : {&residual_, &step_, &response_, &direction_, &change_})
+  for (Vector *vector : {&residual_, &step_, &response_, &direction_, &change_, &yield_, &yielded_})
     vector->resize(numbers);
   position_ = Eigen::Map<const Vector>(position, numbers);
   times.known = 0;
@@ -82,9 +85,6 @@ void RigidSurface::set_markers(const Flow &flow, KernelKind kernel, int count,
   forget();
 
   resistance_.build(flow, kernel, count, position, body);
-  compliance_.resize(numbers);
-  for (int n = 0; n < count; ++n)
-    compliance_.segment<3>(3 * n).setConstant(resistance_.compliance(n));
   if (!free_mean) return;
   uniform_.resize(numbers, 3);
   for (int d = 0; d < 3; ++d) {
@@ -141,11 +141,13 @@ RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
   Outcome outcome;
   flow.share_velocity();
   flow.interpolate(kernel_, markers_, position_.data(), response_.data());
-  residual_ = target_ - response_ - compliance_.cwiseProduct(force_);
+  resistance_.yield(force_.data(), yielded_.data());
+  residual_ = target_ - response_ - yielded_;
 
   // residuals are what their uniform part leaves of them
   Vec3 mean_change{0, 0, 0};
-  double largest[2]{0, std::max(fastest(flow), largest_row(target_))};
+  // largest residual and slip, which differ by what markers yield; speed
+  double largest[3]{0, 0, std::max(fastest(flow), largest_row(target_))};
   while (true) {
     if (free_mean) {
       const Eigen::Vector3d part = uniform_part(flow, residual_);
@@ -153,10 +155,12 @@ RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
       for (int d = 0; d < 3; ++d) mean_change[d] += part[d];
     }
     largest[0] = largest_row(residual_);
-    reduce(largest, 2, MPI_MAX, flow);
-    const double allowed = tolerance * largest[1];
-    outcome.slip = largest[0] == 0 ? 0 : largest[0] / largest[1];
-    outcome.converged = largest[0] <= allowed;
+    change_ = residual_ + yielded_;
+    largest[1] = largest_row(change_);
+    reduce(largest, 3, MPI_MAX, flow);
+    const double allowed = tolerance * largest[2];
+    outcome.slip = largest[1] == 0 ? 0 : largest[1] / largest[2];
+    outcome.converged = largest[1] <= allowed || largest[0] <= negligible * allowed;
     if (outcome.converged || outcome.solves >= max_solves) break;
 
     // change_: what is left after the best combination of the directions known, step_
@@ -169,10 +173,11 @@ RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
     const double square = shares.squaredNorm();
     if (square > 0) use_.head(known_) = memory * use_.head(known_) + shares.cwiseAbs2() / square;
     if (free_mean) rows(change_).colwise() -= uniform_part(flow, change_);
-    double left = largest_row(change_);
-    reduce(&left, 1, MPI_MAX, flow);
+    direction_ = change_ + yielded_;
+    double left[2]{largest_row(change_), largest_row(direction_)};
+    reduce(left, 2, MPI_MAX, flow);
 
-    const bool enough = left <= sure * allowed;
+    const bool enough = std::min(left[1], left[0] / negligible) <= sure * allowed;
     double products[2]{0, 0};    // of the new direction: with what is left, with its response
     if (!enough) {
       precondition(flow, change_, direction_);
@@ -188,7 +193,9 @@ RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
     ++outcome.solves;
     flow.add_response(1.0);
     force_ += step_;
-    response_ += compliance_.cwiseProduct(step_);
+    resistance_.yield(step_.data(), yield_.data());
+    response_ += yield_;
+    yielded_ += yield_;
     residual_ -= response_;
     if (enough) continue;
 

@@ -68,7 +68,7 @@ class RigidSurface {
   Markers markers_;
   MarkerResistance resistance_;
 
-  Vector position_, target_, force_, earlier_, compliance_;
+  Vector position_, target_, force_, earlier_, yield_, yielded_;
   Vector residual_, step_, response_, direction_, change_;
   Vec3 mean_{0, 0, 0};
 

@@ -10,7 +10,6 @@ from lammps_case import POTENTIALS, attempt, dump_line, run, scene
 
 VISCOSITY = 1.2
 OFFSET = 0.3810    # of a plane of markers with peskin4, mean over its places, in cells
-SLIP_LENGTH = 0.001
 
 
 def weights(s):
@@ -93,7 +92,7 @@ class Planes(unittest.TestCase):
             result = walls(self.BOX, plane(self.BOX, z), drive=f"body 1e-4 0 0 {AT_REST}", wall="tol 1e-8", **PLATES)
             # Of the difference equations: u = g / 8 + b y - g y^2 / 2 at y from a plate, in each channel of height h, as
             # the mean of u at -1/2 and 1/2 is 0. The plane feels u(h) + (both shears) d - g r^2 / 2.
-            d, spread, h, g = offset(z - 0.5) - SLIP_LENGTH, mean_square(z - 0.5), np.array([z, 24 - z]), 1e-4 / VISCOSITY
+            d, spread, h, g = offset(z - 0.5), mean_square(z - 0.5), np.array([z, 24 - z]), 1e-4 / VISCOSITY
             u = (g / 2 * spread - d * (g * h / 2 + g / 8 / h).sum()) / (1 - d * (1 / h).sum())
             b = (u - g / 8) / h + g * h / 2
             shears = g * h - b
@@ -111,7 +110,7 @@ class Planes(unittest.TestCase):
         expected = [final * steps * dt / 2, 1e-3 * steps * dt, 0]
         np.testing.assert_allclose(end - start, np.tile(expected, (256, 1)), atol=1e-12)
         np.testing.assert_allclose(result.dump()("vx", "vy", "vz"), np.tile([final, 1e-3, 0], (256, 1)))
-        both, d = 1 / z + 1 / (24 - z), offset(z - 0.5) - SLIP_LENGTH
+        both, d = 1 / z + 1 / (24 - z), offset(z - 0.5)
         speeds = final * np.arange(steps + 1) / steps
         np.testing.assert_allclose(result.thermo["f_w[1]"], -VISCOSITY * speeds / (1 / both - d) * 256,
                                    rtol=1e-3, atol=1e-9)
@@ -124,7 +123,7 @@ class Planes(unittest.TestCase):
                        wall="tol 1e-8 velocity 1e-3 0 0\nfix v v rbc/wall flow tol 1e-8 velocity -1e-3 0 0",
                        thermo=BASE["thermo"] + " f_v[1] f_v[8]")
         last = result.thermo
-        d = offset(8.2 - 0.5) - SLIP_LENGTH
+        d = offset(8.2 - 0.5)
         self.assertAlmostEqual(last["f_w[1]"][0], -last["f_v[1]"][0], delta=1e-9)
         # 16 cells to both sides: stress of both sides times 1 / (h / 2 (of two channels) - d)
         self.assertAlmostEqual(last["f_w[1]"][0] / (-VISCOSITY * 256 * 1e-3 / (apart / 4 - d)), 1, delta=1e-3)
