@@ -18,7 +18,7 @@ class MarkerResistance {
   void build(const Flow &flow, KernelKind kernel, int count, const double *position,
              const int *body);
 
-  /// Velocity with which markers yield to forces, beyond that of the flow: as a slip length of a thousandth of the
+  /// Velocity with which markers yield to forces, beyond that of the flow: as a slip length of 0.0003 of the
   /// grid's spacing would give for the part of the traction that differs from the mean within two spacings. Forces that
   /// the kernel blurs away, as between markers much closer than a spacing, would be without bounds otherwise. Symmetric
   /// and positive semidefinite. Collective.

@@ -223,7 +223,7 @@ TEST(RigidSurface, SimpleCubicArray)
   for (KernelKind kernel : {KernelKind::peskin4, KernelKind::roma3})
     for (const auto &[share, reference] : table) {
       const double calibrated = array(kernel, share * 24, dilute_radius(kernel, share * 24), 24);
-      EXPECT_NEAR(calibrated, reference, 0.017 * reference) << share;
+      EXPECT_NEAR(calibrated, reference, 0.02 * reference) << share;
     }
 }
 
@@ -274,7 +274,7 @@ TEST(RigidSurface, SphereOnTheAxisOfATube)
       }
       const double found2 = -force[0] / speed[0], found1 = force[1] + found2 * speed[1];
       EXPECT_NEAR(found2 / found1, k2 / k1, 0.005 * k2 / k1) << share;
-      EXPECT_NEAR(found1, k1, 0.045 * k1) << share;
+      EXPECT_NEAR(found1, k1, 0.06 * k1) << share;
     }
 }
 
