@@ -8,6 +8,7 @@ FixStyle(rbc/fluid,FixRBCFluid);
 #define LMP_FIX_RBC_FLUID_H
 
 #include "fix.h"
+#include "interior.h"
 #include "measures.h"
 #include "rbc_centred_data.h"
 #include "rbc_collective_stop.h"
@@ -77,6 +78,11 @@ class FixRBCFluid : public Fix {
   fluid::FlowMeasures measures;
   bigint measured_version = -1;
 
+  std::string inside_id;                        // of a region; empty: the whole box
+  std::unique_ptr<fluid::Interior> interior;    // made when asked for
+  fluid::Vec3 inside_velocity{0, 0, 0};
+  bigint inside_version = -1;
+
   CentredData centred;
   FlowRestart restarts;
   CollectiveStop stop;
@@ -92,6 +98,11 @@ class FixRBCFluid : public Fix {
   void report_too_fast(const std::array<double, 3> &x, double courant);
   fluid::Traffic traffic() const;
   const fluid::FlowMeasures &measure();
+  void find_interior();
+  double inside_volume();
+  double inside_value(int);
+  const fluid::Vec3 &measure_inside();
+  double driving_force(int) const;
 };
 
 }    // namespace LAMMPS_NS
