@@ -388,6 +388,7 @@ void FixRBCFluid::setup(int /*vflag*/)
   if (driven) return;
   drive_at_setup();
   if (!has_inertia()) advance_alone();
+  if (correct_drive()) advance_alone();
   count_from_here();
 }
 
@@ -478,6 +479,18 @@ void FixRBCFluid::drive_now()
 }
 
 /* ---------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   by what the last solve gave inside the vessel; false if nothing is held there
+------------------------------------------------------------------------- */
+
+bool FixRBCFluid::correct_drive()
+{
+  if (drive.held_direction() < 0) return false;
+  drive.measured(measure_inside()[drive.held_direction()]);
+  drive_now();
+  return true;
+}
 
 void FixRBCFluid::begin_step(bool again)
 {

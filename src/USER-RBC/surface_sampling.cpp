@@ -14,7 +14,7 @@ namespace {
 // lengths in spacings
 constexpr double grid_spacing = 0.4;
 constexpr double crossing_tolerance = 5e-4;
-constexpr double least_first_distance = 0.4;
+constexpr double least_first_distance = 0.4, largest_first_distance = 1.2, least_share = 0.7;
 constexpr double push_reach = 1.1, list_reach = 1.6;
 constexpr double largest_move = 0.1;
 constexpr double rough_tolerance = 1e-3, fine_tolerance = 1e-9;
@@ -100,10 +100,7 @@ void SurfaceSampling::find_crossings()
 void SurfaceSampling::add_crossing(Vec3 in, Vec3 out, double tolerance, int direction,
                                    double cell_area)
 {
-  while ((out - in).norm() > tolerance) {
-    const Vec3 middle = (in + out) / 2;
-    (enclosure_.holds(middle) ? in : out) = middle;
-  }
+  cut(in, out, tolerance);
   const Vec3 normal = outward(in, (out - in).normalized(), tolerance);
   area_ += std::abs(normal[direction]) * cell_area;
   crossings_.push_back({in, normal});
@@ -123,7 +120,7 @@ Vec3 SurfaceSampling::outward(const Vec3 &x, const Vec3 &guess, double tolerance
 void SurfaceSampling::choose()
 {
   const double wanted = area_ / (std::sqrt(3.0) / 2 * spacing_ * spacing_);
-  double low = least_first_distance * spacing_, high = spacing_;
+  double low = least_first_distance * spacing_, high = largest_first_distance * spacing_;
   for (int trial = 0; trial < trials; ++trial) {
     const double distance = (low + high) / 2;
     choose(distance);
@@ -147,7 +144,10 @@ void SurfaceSampling::choose(double distance)
   for (const int c : order) {
     const Crossing &crossing = crossings_[c];
     bool free = true;
-    chosen.visit(crossing.place, distance, [&](int n, const Vec3 &) {
+    // not all alike, or else the grid would show on planes
+    const double own =
+        (least_share + (1 - least_share) * std::ldexp(random() >> 11, -53)) * distance;
+    chosen.visit(crossing.place, own, [&](int n, const Vec3 &) {
       free = free && normals_[n].dot(crossing.normal) < 0;    // the other side of a thin wall
     });
     if (!free) continue;
@@ -161,6 +161,7 @@ void SurfaceSampling::choose(double distance)
 
 void SurfaceSampling::relax(int steps)
 {
+  anchors_ = points_;
   for (int step = 0; step < steps; ++step) {
     if (step % steps_per_list == 0) find_neighbours();
     push_apart();
@@ -214,29 +215,39 @@ void SurfaceSampling::keep_in_box(Vec3 &x) const
 }
 
 /* ----------------------------------------------------------------------
-   onto the surface along the last normal known; leaves alone a point that does not find it
+   onto the surface along the last normal known, or, past an edge, towards the inside of where the point was before
 ------------------------------------------------------------------------- */
 
-bool SurfaceSampling::project(int n, double tolerance)
+void SurfaceSampling::project(int n, double tolerance)
 {
   const Vec3 start = points_[n];
   const double fine = tolerance * spacing_;
   const bool inside = enclosure_.holds(start);
-  const Vec3 along = (inside ? 1 : -1) * normals_[n];
-  double near = 0, far = fine;
-  while (enclosure_.holds(start + far * along) == inside) {
-    near = far;
-    far *= 3;
-    if (far > largest_depth * spacing_) return false;
+  Vec3 other = start;
+  for (double far = fine; far < largest_depth * spacing_; far *= 3) {
+    other = start + (inside ? far : -far) * normals_[n];
+    if (enclosure_.holds(other) != inside) break;
   }
-  while (far - near > fine) {
-    const double middle = (near + far) / 2;
-    (enclosure_.holds(start + middle * along) == inside ? near : far) = middle;
+  if (enclosure_.holds(other) == inside) {
+    other = anchors_[n] - largest_depth * spacing_ * normals_[n];
+    if (inside || !enclosure_.holds(other)) {
+      points_[n] = anchors_[n];
+      return;
+    }
   }
-  points_[n] = start + (inside ? near : far) * along;    // inside
-  keep_in_box(points_[n]);
-  normals_[n] = outward(points_[n], normals_[n], fine);
-  return true;
+  Vec3 in = inside ? start : other, out = inside ? other : start;
+  cut(in, out, fine);
+  points_[n] = anchors_[n] = in;
+  normals_[n] = outward(in, (out - in).normalized(), fine);
+}
+
+/// Halves the line between two points until they are that near to each other.
+void SurfaceSampling::cut(Vec3 &in, Vec3 &out, double tolerance) const
+{
+  while ((out - in).norm() > tolerance) {
+    const Vec3 middle = (in + out) / 2;
+    (enclosure_.holds(middle) ? in : out) = middle;
+  }
 }
 
 /* ----------------------------------------------------------------------

@@ -37,7 +37,8 @@ class SurfaceSampling {
   Vec3 lo_, hi_;
   double spacing_;
   std::vector<Crossing> crossings_;
-  std::vector<Vec3> points_, normals_;
+  std::vector<Vec3> points_, normals_,
+      anchors_;    ///< these are where points were on the surface last
   std::vector<std::vector<std::pair<int, Vec3>>> neighbours_;    ///< numbers and shifts of images
   double area_ = 0, mean_distance_ = 0, least_distance_ = 0, largest_hole_ = 0;
 
@@ -49,7 +50,8 @@ class SurfaceSampling {
   void relax(int steps);
   void find_neighbours();
   void push_apart();
-  bool project(int n, double tolerance);
+  void project(int n, double tolerance);
+  void cut(Vec3 &in, Vec3 &out, double tolerance) const;
   void keep_in_box(Vec3 &x) const;
   bool fill_holes();
   void measure();
