@@ -14,7 +14,7 @@ namespace {
 
 constexpr double weld_share = 1e-6;    // of the diagonal: corners nearer to each other are one
 constexpr double face_share = 1e-5;    // of the box: edges nearer to a face lie on it
-constexpr double most_cells = 60000;
+constexpr double most_cells = 150000;
 
 std::string text(const Vec3 &x)
 {
@@ -369,7 +369,9 @@ bool TriangulatedSolid::holds(const Vec3 &x) const
   const double distance = centre_distance_[cell];
   if (std::abs(distance) > half_diagonal_) return distance < 0;
   const double bound = 1.001 * (std::abs(distance) + half_diagonal_);
-  return exact(y, {bound * bound}).distance <= 0;
+  last_ = y;
+  nearest_to_last_ = exact(y, {bound * bound});
+  return nearest_to_last_.distance <= 0;
 }
 
 std::optional<TriangulatedSolid::Nearest> TriangulatedSolid::nearest(const Vec3 &x,
@@ -382,7 +384,7 @@ std::optional<TriangulatedSolid::Nearest> TriangulatedSolid::nearest(const Vec3 
     if (distance - half_diagonal_ > cutoff) return {};
     bound = std::min(bound, 1.001 * (distance + half_diagonal_));
   }
-  const Nearest found = exact(y, {bound * bound});
+  const Nearest found = y == last_ ? nearest_to_last_ : exact(y, {bound * bound});
   if (!(std::abs(found.distance) < cutoff)) return {};
   return found;
 }

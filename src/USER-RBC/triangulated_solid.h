@@ -69,6 +69,10 @@ class TriangulatedSolid {
   double half_diagonal_ = 0;
   std::vector<float> centre_distance_;
 
+  // who asks for the side of a point often asks for its distance next
+  mutable Vec3 last_ = Vec3::Constant(NAN);
+  mutable Nearest nearest_to_last_;
+
   std::vector<Corners> weld();
   void join(const std::vector<Corners> &corners);
   void orient();
