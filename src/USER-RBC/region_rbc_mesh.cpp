@@ -36,6 +36,8 @@ RegionRBCMesh::RegionRBCMesh(LAMMPS *lmp, int narg, char **arg) : Region(lmp, na
       break;
   }
   options(narg - iarg, &arg[iarg]);
+  if (openflag)
+    error->all(FLERR, "Region rbc/mesh takes no open faces: leave them out of the file");
 
   std::vector<Triangle> triangles = read(arg[2]);
   const Vec3 units(xscale, yscale, zscale);

@@ -1,35 +1,15 @@
 #include "triangulated_solid.h"
 
-#include "point_bins.h"
+#include "surface_joints.h"
 
 #include <cmath>
-#include <limits>
-#include <map>
 #include <stdexcept>
-#include <string>
 
 namespace rbc {
 
 namespace {
 
-constexpr double weld_share = 1e-6;    // of the diagonal: corners nearer to each other are one
-constexpr double face_share = 1e-5;    // of the box: edges nearer to a face lie on it
 constexpr double most_cells = 150000;
-
-std::string text(const Vec3 &x)
-{
-  const auto number = [](double value) {
-    char digits[32];
-    std::snprintf(digits, sizeof digits, "%.6g", value);
-    return std::string(digits);
-  };
-  return "(" + number(x[0]) + ", " + number(x[1]) + ", " + number(x[2]) + ")";
-}
-
-void require(bool condition, const std::string &problem)
-{
-  if (!condition) throw std::invalid_argument(problem);
-}
 
 Vec3 area_vector(const Triangle &t)
 {
@@ -41,163 +21,35 @@ Vec3 area_vector(const Triangle &t)
 TriangulatedSolid::TriangulatedSolid(std::vector<Triangle> triangles, const PackingBox &box) :
     box_(box), triangles_(std::move(triangles))
 {
-  require(!triangles_.empty(), "there are no triangles");
+  const SurfaceJoints joints(triangles_, box_);
+  box_.periodic = joints.open();
   lo_ = hi_ = triangles_[0][0];
   for (const Triangle &triangle : triangles_)
     for (const Vec3 &corner : triangle) {
       lo_ = lo_.cwiseMin(corner);
       hi_ = hi_.cwiseMax(corner);
     }
-  join(weld());
+  find_normals(joints);
   orient();
   index();
   measure_centres();
 }
 
-/* ----------------------------------------------------------------------
-   numbers of the corners; triangles without area go
-------------------------------------------------------------------------- */
-
-std::vector<TriangulatedSolid::Corners> TriangulatedSolid::weld()
-{
-  const double tolerance = weld_share * (hi_ - lo_).norm();
-  double edge = 0;
-  for (const Triangle &t : triangles_)
-    edge += ((t[1] - t[0]).norm() + (t[2] - t[1]).norm()) / (2.0 * triangles_.size());
-  const PackingBox around{lo_, (hi_ - lo_).array() + 2 * tolerance, {false, false, false}};
-  PointBins bins(around, std::max(edge, 4 * tolerance));
-  std::vector<Vec3> vertices;
-  std::vector<Corners> corners;
-  std::vector<Triangle> kept;
-  for (Triangle triangle : triangles_) {
-    Corners numbers;
-    for (int c = 0; c < 3; ++c) {
-      int number = -1;
-      bins.visit(triangle[c], tolerance, [&](int n, const Vec3 &) { number = n; });
-      if (number < 0) {
-        number = static_cast<int>(vertices.size());
-        vertices.push_back(triangle[c]);
-        bins.add(triangle[c]);
-      }
-      numbers[c] = number;
-      triangle[c] = vertices[number];
-    }
-    if (numbers[0] == numbers[1] || numbers[1] == numbers[2] || numbers[2] == numbers[0]) continue;
-    corners.push_back(numbers);
-    kept.push_back(triangle);
-  }
-  triangles_ = std::move(kept);
-  require(!triangles_.empty(), "no triangle has an area");
-  return corners;
-}
-
-/* ----------------------------------------------------------------------
-   finds the neighbours of all edges, through periodic faces too, and from them the normals
-------------------------------------------------------------------------- */
-
-void TriangulatedSolid::join(const std::vector<Corners> &corners)
+void TriangulatedSolid::find_normals(const SurfaceJoints &joints)
 {
   const int count = static_cast<int>(triangles_.size());
-  int vertices = 0;
-  for (const Corners &c : corners) vertices = std::max({vertices, c[0] + 1, c[1] + 1, c[2] + 1});
-  std::vector<Vec3> place(vertices);
-  std::map<std::pair<int, int>, std::pair<int, int>> left;    // of directed edges: triangle, edge
-  for (int t = 0; t < count; ++t)
-    for (int e = 0; e < 3; ++e) {
-      const int a = corners[t][e], b = corners[t][(e + 1) % 3];
-      place[a] = triangles_[t][e];
-      if (left.emplace(std::make_pair(a, b), std::make_pair(t, e)).second) continue;
-      require(left.count({b, a}) == 0, "more than two triangles share the edge from " +
-                                           text(triangles_[t][e]) + " to " +
-                                           text(triangles_[t][(e + 1) % 3]));
-      require(false, "the triangles on both sides of the edge from " + text(triangles_[t][e]) +
-                         " to " + text(triangles_[t][(e + 1) % 3]) + " are not oriented alike");
-    }
-
-  // edges of one triangle must lie on periodic faces
-  std::array<bool, 3> open{};
-  std::vector<int> twin(vertices);    // the vertex of which one is the periodic image
-  for (int v = 0; v < vertices; ++v) twin[v] = v;
-  struct OpenEdge {
-    int a, b, triangle, edge;
-  };
-  std::vector<OpenEdge> lower, upper;
-  std::vector<std::array<bool, 3>> at_lower(vertices), at_upper(vertices);
-  const auto on_face = [&](int a, int b, int d, bool high) {
-    const double face = box_.lo[d] + (high ? box_.length[d] : 0);
-    const double tolerance = face_share * box_.length[d];
-    return std::abs(place[a][d] - face) < tolerance && std::abs(place[b][d] - face) < tolerance;
-  };
-  for (const auto &[edge, owner] : left) {
-    const auto [a, b] = edge;
-    if (left.count({b, a})) continue;
-    bool found = false;
-    for (int d = 0; d < 3 && !found; ++d)
-      for (const bool high : {false, true}) {
-        if (!box_.periodic[d] || !on_face(a, b, d, high)) continue;
-        open[d] = found = true;
-        for (int v : {a, b}) (high ? at_upper : at_lower)[v][d] = true;
-        (high ? upper : lower).push_back({a, b, owner.first, owner.second});
-        break;
-      }
-    require(found, "the surface is not closed: the edge from " + text(place[a]) + " to " +
-                       text(place[b]) +
-                       " belongs to one triangle only, and lies on no periodic face of the box");
-  }
-  box_.periodic = open;
-
-  const double tolerance = face_share * (box_.length.allFinite() ? box_.length.norm() : 1);
-  PointBins bins(box_.length.allFinite() ? box_ : PackingBox{lo_, hi_ - lo_, {false, false, false}},
-                 std::max(4 * tolerance, (hi_ - lo_).maxCoeff() / 100));
-  std::vector<int> number;
-  for (int v = 0; v < vertices; ++v) {
-    const bool low = at_lower[v][0] || at_lower[v][1] || at_lower[v][2],
-               high = at_upper[v][0] || at_upper[v][1] || at_upper[v][2];
-    if (!low && !high) continue;
-    for (int d = 0; d < 3; ++d) {
-      if (at_lower[v][d]) place[v][d] = box_.lo[d];
-      if (at_upper[v][d]) place[v][d] = box_.lo[d] + box_.length[d];
-    }
-    bool known = false;
-    bins.visit(place[v], tolerance, [&](int n, const Vec3 &) {
-      twin[v] = number[n];
-      known = true;
-    });
-    if (known) continue;
-    bins.add(place[v]);
-    number.push_back(v);
-  }
-  for (int t = 0; t < count; ++t)    // onto the faces exactly
-    for (int c = 0; c < 3; ++c) triangles_[t][c] = place[corners[t][c]];
-
-  std::map<std::pair<int, int>, std::pair<int, int>> through;    // open edges by their twins
-  for (const OpenEdge &e : lower) through[{twin[e.a], twin[e.b]}] = {e.triangle, e.edge};
-  std::vector<Vec3> corner_normals(vertices, Vec3::Zero());
   normals_.resize(count);
   for (int t = 0; t < count; ++t) normals_[t].face = area_vector(triangles_[t]).normalized();
+  std::vector<Vec3> at_vertex(joints.vertices(), Vec3::Zero());
   for (int t = 0; t < count; ++t)
     for (int c = 0; c < 3; ++c) {
       const Triangle &p = triangles_[t];
       const Vec3 u = p[(c + 1) % 3] - p[c], v = p[(c + 2) % 3] - p[c];
-      corner_normals[twin[corners[t][c]]] +=
-          std::atan2(u.cross(v).norm(), u.dot(v)) * normals_[t].face;
-      const int a = corners[t][c], b = corners[t][(c + 1) % 3];
-      const auto other = left.find({b, a});
-      Vec3 &edge = normals_[t].edge[(c + 2) % 3];
-      edge = normals_[t].face;
-      if (other != left.end()) edge += normals_[other->second.first].face;
+      at_vertex[joints.vertex(t, c)] += std::atan2(u.cross(v).norm(), u.dot(v)) * normals_[t].face;
+      normals_[t].edge[(c + 2) % 3] = normals_[t].face + normals_[joints.neighbour(t, c)].face;
     }
-  for (const OpenEdge &e : upper) {
-    const auto found = through.find({twin[e.b], twin[e.a]});
-    if (found == through.end()) continue;
-    const auto [t, edge] = found->second;
-    const Vec3 sum = normals_[t].face + normals_[e.triangle].face;
-    normals_[t].edge[(edge + 2) % 3] = normals_[e.triangle].edge[(e.edge + 2) % 3] = sum;
-  }
-  require(lower.empty() == upper.empty(), "the surface leaves the box through a periodic face and "
-                                          "does not come back through the opposite one");
   for (int t = 0; t < count; ++t)
-    for (int c = 0; c < 3; ++c) normals_[t].corner[c] = corner_normals[twin[corners[t][c]]];
+    for (int c = 0; c < 3; ++c) normals_[t].corner[c] = at_vertex[joints.vertex(t, c)];
 }
 
 /* ----------------------------------------------------------------------
@@ -218,7 +70,8 @@ void TriangulatedSolid::orient()
     for (int d = 0; d < 3; ++d)
       if (!box_.periodic[d]) volume_ += arm[d] * area[d] / closed;
   }
-  require(std::abs(volume_) > 1e-12 * std::pow((hi_ - lo_).norm(), 3), "it encloses no volume");
+  if (!(std::abs(volume_) > 1e-12 * std::pow((hi_ - lo_).norm(), 3)))
+    throw std::invalid_argument("the surface encloses no volume");
   if (volume_ > 0) return;
   volume_ = -volume_;
   for (Triangle &t : triangles_) std::swap(t[1], t[2]);

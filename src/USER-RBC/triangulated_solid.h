@@ -40,7 +40,6 @@ class TriangulatedSolid {
   const std::vector<Triangle> &triangles() const { return triangles_; }
 
  private:
-  using Corners = std::array<int, 3>;
   struct Best {
     double square;
     int triangle = -1;
@@ -73,8 +72,7 @@ class TriangulatedSolid {
   mutable Vec3 last_ = Vec3::Constant(NAN);
   mutable Nearest nearest_to_last_;
 
-  std::vector<Corners> weld();
-  void join(const std::vector<Corners> &corners);
+  void find_normals(const class SurfaceJoints &joints);
   void orient();
   void index();
   void measure_centres();

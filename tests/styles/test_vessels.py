@@ -103,6 +103,7 @@ class Mesh(Case):
         self.error("is not closed: the edge from (", before="region tube rbc/mesh ../bad.stl shift 3 3 3")
         self.error("lies on no periodic face", before=MESH, boundary="boundary f p p")
         self.error("lies on no periodic face", before=MESH, box="region box block 0 25 0 22 0 24")
+        self.error("Region rbc/mesh takes no open faces", before=MESH + " open 1")
         self.error("Region rbc/mesh scale -1 must be > 0", before="region tube rbc/mesh ../tube.stl scale -1")
         self.error("Illegal region rbc/mesh shift command", before="region tube rbc/mesh ../tube.stl shift 1 2")
         self.error("has changed since the region was defined",

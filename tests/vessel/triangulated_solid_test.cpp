@@ -137,6 +137,10 @@ TEST(TriangulatedSolid, SaysWhatIsWrong)
   PackingBox box = along_x;
   box.periodic[0] = false;
   expect(problem(tube, box), "belongs to one triangle only");
+  std::vector<Triangle> sheared = tube;
+  for (Triangle &triangle : sheared)
+    for (Vec3 &corner : triangle) corner[1] += 0.1 * corner[0];
+  expect(problem(sheared, along_x), "has no counterpart there");
   box = along_x;
   box.length[0] = 7.1;
   expect(problem(tube, box), "belongs to one triangle only");
