@@ -221,7 +221,7 @@ void FixRBCFluid::parse(int narg, char **arg)
   if (has_inertia() && drive.held_direction() >= 0)
     error->all(FLERR, "Fix rbc/fluid mean {} needs inertia none", "xyz"[drive.held_direction()]);
   regime.hold_mean = mean_given ? !free_mean : !has_inertia();
-  if (!walls && regime.hold_mean && drive.held_direction() < 0 && comm->me == 0)
+  if (holds_box_mean() && drive.held_direction() < 0 && comm->me == 0)
     for (const NumberOrVariable &component : drive.body)
       if (component.is_variable() || component.value(lmp) != 0) {
         error->warning(FLERR, "Fix rbc/fluid body has no effect in a triply periodic box whose "
@@ -353,12 +353,6 @@ void FixRBCFluid::init()
     error->all(FLERR, "Fix rbc/fluid cannot be used with run_style respa");
   drive.check();
   interior.reset();    // the region may be another one
-  if (drive.held_direction() >= 0) {
-    const double section = inside_volume() / domain->prd[drive.held_direction()];
-    const bool by_mean = !walls && regime.hold_mean;
-    drive.start_control(by_mean, by_mean ? 1 : section / (8 * MathConst::MY_PI * regime.viscosity));
-  }
-
   if (has_inertia() && output->restart_flag) restarts.check_size(*current_flow);
 
   std::string driver;
@@ -379,6 +373,19 @@ void FixRBCFluid::init()
   }
   driven = !driver.empty();
   if (layers_needed() != ghost_layers) build_flow();
+  start_control();
+}
+
+/* ----------------------------------------------------------------------
+   first guess: Poiseuille flow in a round tube as wide as the inside is in the mean
+------------------------------------------------------------------------- */
+
+void FixRBCFluid::start_control()
+{
+  if (drive.held_direction() < 0) return;
+  const double section = inside_volume() / domain->prd[drive.held_direction()];
+  const bool by_mean = holds_box_mean();
+  drive.start_control(by_mean, by_mean ? 1 : section / (8 * MathConst::MY_PI * regime.viscosity));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -477,8 +484,6 @@ void FixRBCFluid::drive_now()
 {
   current_flow->drive = drive.evaluate();
 }
-
-/* ---------------------------------------------------------------------- */
 
 /* ----------------------------------------------------------------------
    by what the last solve gave inside the vessel; false if nothing is held there
@@ -613,7 +618,7 @@ const fluid::Vec3 &FixRBCFluid::measure_inside()
 double FixRBCFluid::driving_force(int d) const
 {
   double density = current_flow->drive.body[d];
-  if (!walls && regime.hold_mean && !has_inertia()) density = -current_flow->mean_force()[d];
+  if (holds_box_mean() && !has_inertia()) density = -current_flow->mean_force()[d];
   return density / force->ftm2v;
 }
 

@@ -103,6 +103,8 @@ class FixRBCFluid : public Fix {
   double inside_volume();
   double inside_value(int);
   const fluid::Vec3 &measure_inside();
+  bool holds_box_mean() const { return !walls && regime.hold_mean; }
+  void start_control();
   double driving_force(int) const;
 };
 

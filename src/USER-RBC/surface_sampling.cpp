@@ -278,7 +278,7 @@ bool SurfaceSampling::fill_holes()
 
 void SurfaceSampling::measure()
 {
-  const double far = 3 * spacing_;
+  const double far = 1.5 * spacing_;    // nothing is further apart, after holes were filled
   PointBins bins(box_, spacing_);
   for (const Vec3 &point : points_) bins.add(point);
   const auto nearest = [&](const Vec3 &x, const Vec3 &normal, int itself) {
