@@ -412,8 +412,7 @@ void FixRBCFluid::final_integrate()
     current_flow->finish_step();
     flow_changed();
   } else if (drive.varies()) {
-    begin_step();
-    drive_now();
+    if (!correct_drive()) drive_now();
     advance_alone();
   }
 }
