@@ -24,6 +24,7 @@ using namespace FixConst;
 
 static constexpr int MIN_CELLS = 4;
 static constexpr double MAX_COURANT = 1.0;
+static constexpr double PROBE_COURANT = 0.02;
 
 // on a rank: a message counts three values of each in an int
 
@@ -377,15 +378,17 @@ void FixRBCFluid::init()
 }
 
 /* ----------------------------------------------------------------------
-   first guess: Poiseuille flow in a round tube as wide as the inside is in the mean
+   probes with Poiseuille flow in a round tube as wide as the inside is in the mean, slow enough for atoms in throats
 ------------------------------------------------------------------------- */
 
 void FixRBCFluid::start_control()
 {
   if (drive.held_direction() < 0) return;
   const double section = inside_volume() / domain->prd[drive.held_direction()];
+  const double velocity = PROBE_COURANT * smallest_spacing() / update->dt;
   const bool by_mean = holds_box_mean();
-  drive.start_control(by_mean, by_mean ? 1 : section / (8 * MathConst::MY_PI * regime.viscosity));
+  drive.start_control(
+      by_mean, by_mean ? velocity : 8 * MathConst::MY_PI * regime.viscosity * velocity / section);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -395,7 +398,10 @@ void FixRBCFluid::setup(int /*vflag*/)
   if (driven) return;
   drive_at_setup();
   if (!has_inertia()) advance_alone();
-  if (correct_drive()) advance_alone();
+  for (bool again = holds_inside(); again;) {
+    again = correct_drive();
+    advance_alone();
+  }
   count_from_here();
 }
 
@@ -412,7 +418,10 @@ void FixRBCFluid::final_integrate()
     current_flow->finish_step();
     flow_changed();
   } else if (drive.varies()) {
-    if (!correct_drive()) drive_now();
+    if (holds_inside())
+      correct_drive();
+    else
+      drive_now();
     advance_alone();
   }
 }
@@ -485,21 +494,19 @@ void FixRBCFluid::drive_now()
 }
 
 /* ----------------------------------------------------------------------
-   by what the last solve gave inside the vessel; false if nothing is held there
+   by what the last solve gave inside the vessel; true if the next one is a probe
 ------------------------------------------------------------------------- */
 
 bool FixRBCFluid::correct_drive()
 {
-  if (drive.held_direction() < 0) return false;
   drive.measured(measure_inside()[drive.held_direction()]);
   drive_now();
-  return true;
+  return drive.probing();
 }
 
 void FixRBCFluid::begin_step(bool again)
 {
-  if (drive.held_direction() >= 0 && !again)
-    drive.measured(measure_inside()[drive.held_direction()]);
+  if (holds_inside() && !again) drive.measured(measure_inside()[drive.held_direction()]);
   drive.begin_step(again);
 }
 

@@ -47,6 +47,7 @@ class FixRBCFluid : public Fix {
   bool has_inertia() const { return regime.inertia != fluid::Inertia::none; }
   void drive_at_setup();
   void drive_now();
+  bool holds_inside() const { return drive.held_direction() >= 0; }
   bool correct_drive();
   void begin_step(bool again = false);
   void drive_at(double fraction);

@@ -286,7 +286,8 @@ void FixRBCIB::setup(int /*vflag*/)
   unconverged = motion->unconverged = 0;
   if (!fluid_fix->has_inertia()) {
     motion->update_velocities(Stage::START);
-    if (fluid_fix->correct_drive()) {
+    for (bool again = fluid_fix->holds_inside(); again;) {
+      again = fluid_fix->correct_drive();
       motion->recompute_forces();
       motion->update_velocities(Stage::START);
     }

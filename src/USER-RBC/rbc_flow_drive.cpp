@@ -21,10 +21,11 @@ void FlowDrive::hold_inside(int direction, const NumberOrVariable &velocity)
   held_velocity_ = velocity;
 }
 
-void FlowDrive::start_control(bool by_mean, double slope)
+void FlowDrive::start_control(bool by_mean, double probe)
 {
   by_mean_ = by_mean;
-  slope_guess_ = slope;
+  is_measured_ = false;
+  control_.probe(probe);
 }
 
 void FlowDrive::measured(double inside_velocity)
@@ -35,12 +36,10 @@ void FlowDrive::measured(double inside_velocity)
 
 void FlowDrive::control()
 {
-  double &input = (by_mean_ ? end_.mean : end_.body)[held_direction_];
   const double wanted = held_velocity_.value(lmp);
-  if (!control_.started()) control_.start(input != 0 ? input : wanted / slope_guess_, slope_guess_);
   if (is_measured_) control_.adjust(measured_, wanted);
   is_measured_ = false;
-  input = control_.input();
+  (by_mean_ ? end_.mean : end_.body)[held_direction_] = control_.input();
 }
 
 /* ---------------------------------------------------------------------- */

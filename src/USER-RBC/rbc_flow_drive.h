@@ -4,7 +4,7 @@
 #include "flow.h"
 #include "pointers.h"
 #include "rbc_number_or_variable.h"
-#include "secant_control.h"
+#include "response_control.h"
 
 #include <array>
 #include <string>
@@ -22,12 +22,13 @@ class FlowDrive : protected Pointers {
   Vector lower, upper, body, mean;
 
   /// Holds the mean velocity inside a vessel along a direction, by the body force or, where the mean velocity of the
-  /// whole box is held, by that. What is given for it is the first guess.
+  /// whole box is held, by that, in place of what is given for it.
   void hold_inside(int direction, const NumberOrVariable &velocity);
   int held_direction() const { return held_direction_; }
 
-  /// With a guess of what an input of 1 gives.
-  void start_control(bool by_mean, double slope);
+  /// At the start of a run: the response of the velocity is found anew. The probe is of an input of about that size.
+  void start_control(bool by_mean, double probe);
+  bool probing() const { return control_.probing(); }
 
   /// The velocity that the drive has given.
   void measured(double inside_velocity);
@@ -55,8 +56,7 @@ class FlowDrive : protected Pointers {
   int held_direction_ = -1;
   NumberOrVariable held_velocity_;
   bool by_mean_ = false;
-  double slope_guess_ = 1;
-  rbc::SecantControl control_;
+  rbc::ResponseControl control_;
   bool is_measured_ = false;    // since the last change of the input
   double measured_ = 0;
 
