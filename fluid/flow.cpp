@@ -164,6 +164,19 @@ void Flow::fill_ghosts(const VectorField &velocity, const Walls &walls)
   if (grid_.walls) reflect_velocity(grid_, walls, velocity);
 }
 
+Vec3 Flow::mean_force() const
+{
+  Vec3 mean{0, 0, 0};
+  if (has_force_) {
+    const auto f = force_.views();
+    for_each_cell(brick(), [&](int i, int j, int k) {
+      for (int c = 0; c < 3; ++c) mean[c] += f[c](i, j, k) / grid_.size();
+    });
+  }
+  MPI_Allreduce(MPI_IN_PLACE, mean.data(), 3, MPI_DOUBLE, MPI_SUM, decomposition_.comm);
+  return mean;
+}
+
 void Flow::share_force()
 {
   halo_.fill(force_.views());

@@ -69,6 +69,10 @@ class Flow {
   const Box &brick() const { return decomposition_.mine(); }
   bool has_force() const { return has_force_; }
   const VectorField &force() const { return force_; }
+
+  /// Over all cells of the grid. Collective.
+  Vec3 mean_force() const;
+
   const VectorField &velocity() const { return velocity_; }
 
   /// Sets a velocity to start from, without divergence: velocity(c, i, j, k) on the brick's faces.

@@ -9,9 +9,12 @@
 #include "error.h"
 #include "force.h"
 #include "grid3d.h"
+#include "math_const.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "output.h"
+#include "rbc_region_enclosure.h"
+#include "region.h"
 #include "update.h"
 
 #include <algorithm>
@@ -23,6 +26,7 @@ using namespace FixConst;
 
 static constexpr int MIN_CELLS = 4;
 static constexpr double MAX_COURANT = 1.0;
+static constexpr double PROBE_COURANT = 0.02;
 
 // on a rank: a message counts three values of each in an int
 
@@ -39,7 +43,7 @@ FixRBCFluid::FixRBCFluid(LAMMPS *lmp, int narg, char **arg) :
     restarts(lmp, fmt::format("Fix rbc/fluid {}", id)), stop(lmp)
 {
   scalar_flag = vector_flag = 1;
-  size_vector = 12;
+  size_vector = 22;
   global_freq = 1;
   extscalar = 1;
   extvector = 0;
@@ -167,12 +171,25 @@ void FixRBCFluid::parse(int narg, char **arg)
       iarg += 4;
     } else if (keyword == "mean") {
       need(1, "mean");
+      const std::string value = arg[iarg + 1];
+      if (value == "x" || value == "y" || value == "z") {
+        need(2, "mean");
+        if (value == "z" && !domain->zperiodic)
+          error->all(
+              FLERR, iarg + 1,
+              "Fix rbc/fluid mean z needs a triply periodic box: plates let no flow through");
+        drive.hold_inside(value[0] - 'x', NumberOrVariable(lmp, arg[iarg + 2]));
+        iarg += 3;
+        continue;
+      }
       if (!domain->zperiodic)
-        error->all(FLERR, iarg,
-                   "Fix rbc/fluid mean needs a triply periodic box: between plates the mean flow "
-                   "follows from them");
+        error->all(
+            FLERR, iarg,
+            "Fix rbc/fluid mean {} needs a triply periodic box: between plates the mean flow "
+            "follows from them; mean x or y V holds one by a body force",
+            value);
       mean_given = true;
-      if (strcmp(arg[iarg + 1], "force") == 0) {
+      if (value == "force") {
         free_mean = true;
         iarg += 2;
       } else {
@@ -180,10 +197,17 @@ void FixRBCFluid::parse(int narg, char **arg)
         parse_vector(iarg + 1, narg, arg, "mean", drive.mean);
         iarg += 4;
       }
+    } else if (keyword == "inside") {
+      need(1, "inside");
+      inside_id = arg[iarg + 1];
+      if (!domain->get_region_by_id(inside_id))
+        error->all(FLERR, iarg + 1, "Region ID {} for fix rbc/fluid inside does not exist",
+                   inside_id);
+      iarg += 2;
     } else
       error->all(FLERR, iarg,
                  "Unknown fix rbc/fluid keyword {}; allowed: dx, grid, viscosity, density, "
-                 "inertia, scheme, wall, body, mean",
+                 "inertia, scheme, wall, body, mean, inside",
                  keyword);
   }
 
@@ -194,6 +218,8 @@ void FixRBCFluid::parse(int narg, char **arg)
     error->all(FLERR,
                "Fix rbc/fluid scheme projection needs inertia unsteady or convective: steady "
                "flow has no step to split");
+  if (has_inertia() && drive.held_direction() >= 0)
+    error->all(FLERR, "Fix rbc/fluid mean {} needs inertia none", "xyz"[drive.held_direction()]);
   regime.hold_mean = !has_inertia() || (mean_given && !free_mean);
   if (target_spacing == 0 && cells[0] == 0) error->all(FLERR, "Fix rbc/fluid needs dx or grid");
   if (target_spacing > 0 && cells[0] > 0)
@@ -269,6 +295,7 @@ int FixRBCFluid::layers_needed() const
 void FixRBCFluid::build_flow()
 {
   centred.free();
+  interior.reset();
   grid = std::make_unique<Grid3d>(lmp, world, cells[0], cells[1], cells[2]);
   int lo[3], hi[3], outlo[3], outhi[3];
   grid->setup_grid(lo[0], hi[0], lo[1], hi[1], lo[2], hi[2], outlo[0], outhi[0], outlo[1], outhi[1],
@@ -318,7 +345,7 @@ void FixRBCFluid::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix rbc/fluid cannot be used with run_style respa");
   drive.check();
-
+  interior.reset();    // the region may be another one
   if (has_inertia() && output->restart_flag) restarts.check_size(*current_flow);
 
   std::string driver;
@@ -340,6 +367,21 @@ void FixRBCFluid::init()
   driven = !driver.empty();
   find_walls();
   if (layers_needed() != ghost_layers) build_flow();
+  start_control();
+}
+
+/* ----------------------------------------------------------------------
+   probes with Poiseuille flow in a round tube as wide as the inside is in the mean, slow enough for atoms in throats
+------------------------------------------------------------------------- */
+
+void FixRBCFluid::start_control()
+{
+  if (drive.held_direction() < 0) return;
+  const double section = inside_volume() / domain->prd[drive.held_direction()];
+  const double velocity = PROBE_COURANT * smallest_spacing() / update->dt;
+  const bool by_mean = holds_box_mean();
+  drive.start_control(
+      by_mean, by_mean ? velocity : 8 * MathConst::MY_PI * regime.viscosity * velocity / section);
 }
 
 /* ----------------------------------------------------------------------
@@ -348,16 +390,19 @@ void FixRBCFluid::init()
 
 void FixRBCFluid::find_walls()
 {
-  const bool balance = !walls && !has_inertia() && !(mean_given && !free_mean);
+  balanced = !walls && !has_inertia() && !(mean_given && !free_mean);
   if (!rigid) rigid = std::make_unique<RigidWalls>(lmp);
-  if (!rigid->connect(id, balance)) rigid.reset();
+  if (!rigid->connect(id, balanced)) {
+    rigid.reset();
+    balanced = false;
+  }
   if (rigid && has_inertia())
     error->all(FLERR, "{} needs fix rbc/fluid {} inertia none", rigid->first()->style_name(), id);
   if (rigid) return;
   if (!has_inertia() && free_mean)
     error->all(FLERR, "Fix rbc/fluid mean force needs inertia unsteady or convective, or a fix "
                       "rbc/wall: without them a net force has nothing to accelerate or to act on");
-  if (walls || !regime.hold_mean || comm->me != 0) return;
+  if (!holds_box_mean() || drive.held_direction() >= 0 || comm->me != 0) return;
   for (const NumberOrVariable &component : drive.body)
     if (component.is_variable() || component.value(lmp) != 0) {
       error->warning(FLERR, "Fix rbc/fluid body has no effect in a triply periodic box whose "
@@ -366,15 +411,22 @@ void FixRBCFluid::find_walls()
     }
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   the body force acts inside only: beside walls that are sheared on both sides they would seem further off
+------------------------------------------------------------------------- */
 
 void FixRBCFluid::spread_walls(const std::array<double, 3> &others, CollectiveStop &report)
 {
   if (!rigid) return;
   std::array<double, 3> sum = others;
-  const double volume = domain->xprd * domain->yprd * domain->zprd;
+  fluid::Vec3 &body = current_flow->drive.body;
+  const double volume = inside_volume();
   if (comm->me == 0)
-    for (int d = 0; d < 3; ++d) sum[d] += current_flow->drive.body[d] * volume;
+    for (int d = 0; d < 3; ++d) sum[d] += body[d] * volume;
+  if (interior) {
+    interior->add_force(*current_flow, body);
+    body = {0, 0, 0};
+  }
   const double end = update->atime + (update->ntimestep - update->atimestep) * update->dt;
   rigid->spread(*current_flow, end - (1 - fraction) * update->dt, sum, report);
 }
@@ -397,6 +449,10 @@ void FixRBCFluid::setup(int /*vflag*/)
   if (driven) return;
   drive_at_setup();
   if (!has_inertia()) advance_alone();
+  for (bool again = holds_inside(); again;) {
+    again = correct_drive();
+    advance_alone();
+  }
   count_from_here();
 }
 
@@ -413,7 +469,10 @@ void FixRBCFluid::final_integrate()
     current_flow->finish_step();
     flow_changed();
   } else if (drive.varies() || (rigid && rigid->moves())) {
-    drive_now();
+    if (holds_inside())
+      correct_drive();
+    else
+      drive_now();
     advance_alone();
   }
 }
@@ -493,10 +552,20 @@ void FixRBCFluid::drive_now()
   current_flow->drive = drive.evaluate();
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   by what the last solve gave inside the vessel; true if the next one is a probe
+------------------------------------------------------------------------- */
+
+bool FixRBCFluid::correct_drive()
+{
+  drive.measured(measure_inside()[drive.held_direction()]);
+  drive_now();
+  return drive.probing();
+}
 
 void FixRBCFluid::begin_step(bool again)
 {
+  if (holds_inside() && !again) drive.measured(measure_inside()[drive.held_direction()]);
   drive.begin_step(again);
   if (rigid) rigid->begin_step(again);
 }
@@ -554,12 +623,70 @@ double FixRBCFluid::compute_scalar()
 double FixRBCFluid::compute_vector(int n)
 {
   if (n == 11) return static_cast<double>(solves());
+  if (n > 11) return inside_value(n - 12);
   const fluid::FlowMeasures &m = measure();
   const double to_pressure = 1.0 / force->ftm2v;
   if (n < 3) return m.lower_traction[n] * to_pressure;
   if (n < 6) return m.upper_traction[n - 3] * to_pressure;
   if (n < 9) return m.mean_velocity[n - 6];
   return n == 9 ? m.max_speed : m.max_divergence;
+}
+
+/* ----------------------------------------------------------------------
+   of the region inside, or of the whole box: mean velocity, flow rates through sections, uniform force density, volume
+------------------------------------------------------------------------- */
+
+double FixRBCFluid::inside_value(int n)
+{
+  if (n < 3) return measure_inside()[n];
+  if (n < 6) return measure_inside()[n - 3] * inside_volume() / domain->prd[n - 3];
+  return n < 9 ? driving_force(n - 6) : inside_volume();
+}
+
+void FixRBCFluid::find_interior()
+{
+  if (interior || inside_id.empty()) return;
+  Region *region = domain->get_region_by_id(inside_id);
+  if (!region)
+    error->all(FLERR, "Region ID {} for fix rbc/fluid {} inside does not exist", inside_id, id);
+  if (region->dynamic_check())
+    error->all(FLERR, "Region {} for fix rbc/fluid {} inside must not move", inside_id, id);
+  region->init();
+  const RegionEnclosure enclosure(region, domain);
+  interior = std::make_unique<fluid::Interior>(current_flow->grid(), current_flow->decomposition(),
+                                               [&](const fluid::Vec3 &x) {
+                                                 return enclosure.holds({x[0], x[1], x[2]});
+                                               });
+  inside_version = -1;
+  if (interior->volume() == 0)
+    error->all(FLERR, "Region {} for fix rbc/fluid {} inside holds nothing of the simulation box",
+               inside_id, id);
+}
+
+double FixRBCFluid::inside_volume()
+{
+  find_interior();
+  return interior ? interior->volume() : domain->prd[0] * domain->prd[1] * domain->prd[2];
+}
+
+const fluid::Vec3 &FixRBCFluid::measure_inside()
+{
+  find_interior();
+  if (!interior) return measure().mean_velocity;
+  if (inside_version != version) inside_velocity = interior->mean_velocity(*current_flow);
+  inside_version = version;
+  return inside_velocity;
+}
+
+/* ----------------------------------------------------------------------
+   body force, or the pressure gradient that balances all forces where the mean velocity is held
+------------------------------------------------------------------------- */
+
+double FixRBCFluid::driving_force(int d) const
+{
+  double density = drive.end().body[d];
+  if (holds_box_mean() && !has_inertia()) density = -current_flow->mean_force()[d];
+  return density / force->ftm2v;
 }
 
 /* ---------------------------------------------------------------------- */

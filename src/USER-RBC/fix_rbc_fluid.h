@@ -8,6 +8,7 @@ FixStyle(rbc/fluid,FixRBCFluid);
 #define LMP_FIX_RBC_FLUID_H
 
 #include "fix.h"
+#include "interior.h"
 #include "measures.h"
 #include "rbc_centred_data.h"
 #include "rbc_collective_stop.h"
@@ -46,6 +47,8 @@ class FixRBCFluid : public Fix {
   bool has_inertia() const { return regime.inertia != fluid::Inertia::none; }
   void drive_at_setup();
   void drive_now();
+  bool holds_inside() const { return drive.held_direction() >= 0; }
+  bool correct_drive();
   void begin_step(bool again = false);
   void drive_at(double fraction);
   void drive_end();
@@ -72,6 +75,7 @@ class FixRBCFluid : public Fix {
   fluid::Regime regime;
   bool walls = false;    // plates
   bool mean_given = false, free_mean = false;
+  bool balanced = false;    // the mean velocity follows from the forces of walls
   FlowDrive drive;
 
   std::unique_ptr<class Grid3d> grid;
@@ -87,6 +91,11 @@ class FixRBCFluid : public Fix {
 
   fluid::FlowMeasures measures;
   bigint measured_version = -1;
+
+  std::string inside_id;                        // of a region; empty: the whole box
+  std::unique_ptr<fluid::Interior> interior;    // made when asked for
+  fluid::Vec3 inside_velocity{0, 0, 0};
+  bigint inside_version = -1;
 
   CentredData centred;
   FlowRestart restarts;
@@ -107,6 +116,13 @@ class FixRBCFluid : public Fix {
   void report_too_fast(const std::array<double, 3> &x, double courant);
   fluid::Traffic traffic() const;
   const fluid::FlowMeasures &measure();
+  void find_interior();
+  double inside_volume();
+  double inside_value(int);
+  const fluid::Vec3 &measure_inside();
+  bool holds_box_mean() const { return !walls && regime.hold_mean && !balanced; }
+  void start_control();
+  double driving_force(int) const;
 };
 
 }    // namespace LAMMPS_NS

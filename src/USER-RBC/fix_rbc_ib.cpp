@@ -303,9 +303,14 @@ void FixRBCIB::setup(int /*vflag*/)
   fluid_fix->drive_at_setup();
   first_step = update->ntimestep;
   unconverged = motion->unconverged = 0;
-  if (!fluid_fix->has_inertia())
+  if (!fluid_fix->has_inertia()) {
     motion->update_velocities(Stage::START);
-  else if (scheme == Scheme::ELASTIC && fluid_fix->flow().steps() == 0)
+    for (bool again = fluid_fix->holds_inside(); again;) {
+      again = fluid_fix->correct_drive();
+      motion->recompute_forces();
+      motion->update_velocities(Stage::START);
+    }
+  } else if (scheme == Scheme::ELASTIC && fluid_fix->flow().steps() == 0)
     motion->interpolate(Stage::START);
   motion->check_velocities(Stage::START);
   motion->reset_stopwatches();

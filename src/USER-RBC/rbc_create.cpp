@@ -9,6 +9,7 @@
 #include "math_const.h"
 #include "random_park.h"
 #include "rbc_cell_template.h"
+#include "rbc_region_enclosure.h"
 #include "region.h"
 
 #include <Eigen/Geometry>
@@ -17,39 +18,6 @@ using namespace LAMMPS_NS;
 using rbc::Vec3;
 
 namespace {
-
-class RegionEnclosure : public rbc::Enclosure {
- public:
-  RegionEnclosure(Region *region, Domain *domain) : region_(region), domain_(domain) {}
-
-  bool holds(const Vec3 &x) const override
-  {
-    const Vec3 y = wrapped(x);
-    return region_->match(y[0], y[1], y[2]);
-  }
-
-  Vec3 inward(const Vec3 &x, double distance) const override
-  {
-    const Vec3 y = wrapped(x);
-    Vec3 normal = Vec3::Zero();
-    for (int n = region_->surface(y[0], y[1], y[2], distance); n-- > 0;) {
-      const Region::Contact &contact = region_->contact[n];
-      const Vec3 from_surface(contact.delx, contact.dely, contact.delz);
-      if (from_surface.norm() > 0) normal += from_surface.normalized();
-    }
-    return normal.norm() > 0 ? normal.normalized() : normal;
-  }
-
- private:
-  Region *region_;
-  Domain *domain_;
-
-  Vec3 wrapped(Vec3 x) const
-  {
-    domain_->remap(x.data());
-    return x;
-  }
-};
 
 /// Numbers of all tasks, in their order.
 std::vector<double> gather(const std::vector<double> &mine, const Comm *comm, MPI_Comm world)
@@ -342,7 +310,7 @@ std::vector<RBCCreate::Cell> RBCCreate::pack()
   const auto share = [this](const std::vector<double> &mine) { return gather(mine, comm, world); };
   rbc::CellPacking packing(box, templates, kind_of, gap, seed, {comm->me, comm->nprocs, share});
   packing.avoid(existing_atoms());
-  const RegionEnclosure enclosure(region, domain);
+  const RegionEnclosure enclosure(region, domain, -gap / 2);
   if (region) packing.confine(enclosure, lo, length);
 
   if (!packing.pack(attempts)) {

@@ -15,8 +15,38 @@ FlowDrive::FlowDrive(LAMMPS *lmp, std::string style) : Pointers(lmp), style_(std
 
 /* ---------------------------------------------------------------------- */
 
+void FlowDrive::hold_inside(int direction, const NumberOrVariable &velocity)
+{
+  held_direction_ = direction;
+  held_velocity_ = velocity;
+}
+
+void FlowDrive::start_control(bool by_mean, double probe)
+{
+  by_mean_ = by_mean;
+  is_measured_ = false;
+  control_.probe(probe);
+}
+
+void FlowDrive::measured(double inside_velocity)
+{
+  measured_ = inside_velocity;
+  is_measured_ = true;
+}
+
+void FlowDrive::control()
+{
+  const double wanted = held_velocity_.value(lmp);
+  if (is_measured_) control_.adjust(measured_, wanted);
+  is_measured_ = false;
+  (by_mean_ ? end_.mean : end_.body)[held_direction_] = control_.input();
+}
+
+/* ---------------------------------------------------------------------- */
+
 bool FlowDrive::varies() const
 {
+  if (held_direction_ >= 0) return true;
   for (const Vector *vector : {&lower, &upper, &body, &mean})
     for (const NumberOrVariable &component : *vector)
       if (component.is_variable()) return true;
@@ -29,6 +59,7 @@ void FlowDrive::check() const
 {
   for (const Vector *vector : {&lower, &upper, &body, &mean})
     for (const NumberOrVariable &component : *vector) component.check(lmp, "fix rbc/fluid");
+  held_velocity_.check(lmp, "fix rbc/fluid");
 }
 
 /* ---------------------------------------------------------------------- */
@@ -44,6 +75,7 @@ const fluid::Drive &FlowDrive::evaluate()
     end_.body[d] = body[d].value(lmp) * force->ftm2v;
     end_.mean[d] = mean[d].value(lmp);
   }
+  if (held_direction_ >= 0) control();
   modify->addstep_compute(update->ntimestep + 1);
 
   for (const auto *vector : {&end_.walls.lower, &end_.walls.upper, &end_.body, &end_.mean})

@@ -4,6 +4,7 @@
 #include "flow.h"
 #include "pointers.h"
 #include "rbc_number_or_variable.h"
+#include "response_control.h"
 
 #include <array>
 #include <string>
@@ -19,6 +20,18 @@ class FlowDrive : protected Pointers {
   FlowDrive(LAMMPS *lmp, std::string style);
 
   Vector lower, upper, body, mean;
+
+  /// Holds the mean velocity inside a vessel along a direction, by the body force or, where the mean velocity of the
+  /// whole box is held, by that, in place of what is given for it.
+  void hold_inside(int direction, const NumberOrVariable &velocity);
+  int held_direction() const { return held_direction_; }
+
+  /// At the start of a run: the response of the velocity is found anew. The probe is of an input of about that size.
+  void start_control(bool by_mean, double probe);
+  bool probing() const { return control_.probing(); }
+
+  /// The velocity that the drive has given.
+  void measured(double inside_velocity);
 
   bool varies() const;
   bool is_known() const { return known_; }
@@ -39,6 +52,15 @@ class FlowDrive : protected Pointers {
   std::string style_;
   bool known_ = false;
   fluid::Drive start_, end_;
+
+  int held_direction_ = -1;
+  NumberOrVariable held_velocity_;
+  bool by_mean_ = false;
+  rbc::ResponseControl control_;
+  bool is_measured_ = false;    // since the last change of the input
+  double measured_ = 0;
+
+  void control();
 };
 
 }    // namespace LAMMPS_NS

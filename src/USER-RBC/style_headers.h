@@ -9,3 +9,5 @@
 #include "fix_rbc_wall.h"
 #include "pair_rbc_jkr.h"
 #include "rbc_create.h"
+#include "rbc_surface.h"
+#include "region_rbc_mesh.h"

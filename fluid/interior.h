@@ -1,0 +1,30 @@
+#pragma once
+
+#include "flow.h"
+
+#include <functional>
+#include <vector>
+
+namespace fluid {
+
+/// A part of the fluid, that inside a vessel for example: the share of each cell that belongs to it.
+class Interior {
+ public:
+  /// Collective. Cells with corners on both sides are sampled.
+  Interior(const Grid &grid, const Decomposition &decomposition,
+           const std::function<bool(const Vec3 &)> &holds);
+
+  double volume() const { return volume_; }
+
+  /// Before gather_force: half the force of a cell on each of two faces.
+  void add_force(const Flow &flow, const Vec3 &density) const;
+
+  /// Collective; fills the ghosts of the velocity where they are not.
+  Vec3 mean_velocity(Flow &flow) const;
+
+ private:
+  std::vector<float> share_;    ///< of this rank's cells
+  double volume_ = 0;
+};
+
+}    // namespace fluid

@@ -1,0 +1,152 @@
+#include "rbc_surface.h"
+
+#include "atom.h"
+#include "atom_vec.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "rbc_region_enclosure.h"
+#include "region.h"
+#include "surface_sampling.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+using rbc::Vec3;
+
+/* ---------------------------------------------------------------------- */
+
+void RBCSurface::command(int narg, char **arg)
+{
+  if (domain->box_exist == 0)
+    error->all(FLERR, "Rbc/surface must be used after the simulation box is defined");
+  if (domain->triclinic) error->all(FLERR, "Rbc/surface requires an orthogonal simulation box");
+  parse(narg, arg);
+
+  const double begin = platform::walltime();
+  const rbc::PackingBox box{
+      Vec3(domain->boxlo),
+      Vec3(domain->prd),
+      {domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0}};
+  Vec3 lo, hi;
+  extent(lo, hi);
+  const RegionEnclosure enclosure(region, domain, offset);
+  const rbc::SurfaceSampling surface(enclosure, box, lo, hi, spacing);
+  if (surface.points().empty())
+    error->all(FLERR, Error::ARGZERO, "Rbc/surface region {} has no surface in the simulation box",
+               region->id);
+  create_atoms(surface.points());
+  if (comm->me == 0)
+    utils::logmesg(lmp,
+                   "Created {} atoms on a surface of area {:.6g}\n"
+                   "  nearest neighbors are {:.4g} apart in the mean, {:.4g} at least\n"
+                   "  no place of the surface is more than {:.4g} from an atom\n"
+                   "  rbc/surface CPU = {:.3f} seconds\n",
+                   surface.points().size(), surface.area(), surface.mean_distance(),
+                   surface.least_distance(), surface.largest_hole(), platform::walltime() - begin);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RBCSurface::parse(int narg, char **arg)
+{
+  if (narg < 1) utils::missing_cmd_args(FLERR, "rbc/surface", error);
+  region = domain->get_region_by_id(arg[0]);
+  if (!region)
+    error->all(FLERR, Error::ARGZERO, "Region ID {} for rbc/surface does not exist", arg[0]);
+  region->init();
+  region->prematch();
+
+  for (int iarg = 1; iarg < narg; iarg += 2) {
+    const std::string keyword = arg[iarg];
+    if (iarg + 1 >= narg) utils::missing_cmd_args(FLERR, "rbc/surface " + keyword, error);
+    const auto number = [&] { return utils::numeric(FLERR, arg[iarg + 1], false, lmp); };
+    const auto positive = [&] {
+      const double value = number();
+      if (!(value > 0))
+        error->all(FLERR, iarg + 1, "Rbc/surface {} {} must be > 0", keyword, arg[iarg + 1]);
+      return value;
+    };
+    if (keyword == "type") {
+      type = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
+      if (type < 1 || type > atom->ntypes)
+        error->all(FLERR, iarg + 1, "Rbc/surface type {} must be between 1 and {}", type,
+                   atom->ntypes);
+    } else if (keyword == "spacing")
+      spacing = positive();
+    else if (keyword == "mass")
+      mass = positive();
+    else if (keyword == "offset")
+      offset = number();
+    else
+      error->all(FLERR, iarg,
+                 "Unknown rbc/surface keyword {}; allowed: type, spacing, offset, mass", keyword);
+  }
+  if (type == 0) error->all(FLERR, "Rbc/surface needs type");
+  if (spacing == 0) error->all(FLERR, "Rbc/surface needs spacing");
+}
+
+/* ----------------------------------------------------------------------
+   the part of the box around the region, with room for the first outside nodes of a grid
+------------------------------------------------------------------------- */
+
+void RBCSurface::extent(Vec3 &lo, Vec3 &hi) const
+{
+  lo = Vec3(domain->boxlo);
+  hi = Vec3(domain->boxhi);
+  if (!region->bboxflag) return;
+  const Vec3 low(region->extent_xlo, region->extent_ylo, region->extent_zlo),
+      high(region->extent_xhi, region->extent_yhi, region->extent_zhi);
+  const double margin = std::max(0.0, offset) + spacing;
+  for (int d = 0; d < 3; ++d) {
+    if (high[d] - low[d] + 2 * margin >= domain->prd[d]) continue;
+    lo[d] = std::max(lo[d], low[d] - margin);
+    hi[d] = std::min(hi[d], high[d] + margin);
+  }
+  if ((hi - lo).minCoeff() <= 0)
+    error->all(FLERR, Error::ARGZERO, "Rbc/surface region {} has no surface in the simulation box",
+               region->id);
+}
+
+/* ----------------------------------------------------------------------
+   every rank creates the atoms it owns
+------------------------------------------------------------------------- */
+
+void RBCSurface::create_atoms(const std::vector<Vec3> &points)
+{
+  tagint last = 0;
+  for (int i = 0; i < atom->nlocal; ++i) last = std::max(last, atom->tag[i]);
+  MPI_Allreduce(MPI_IN_PLACE, &last, 1, MPI_LMP_TAGINT, MPI_MAX, world);
+  if (last + static_cast<bigint>(points.size()) > MAXTAGINT)
+    error->all(FLERR, "Rbc/surface: too many atoms for atom IDs");
+
+  const int nlocal_previous = atom->nlocal;
+  atom->nghost = 0;    // their indices are taken
+  for (Vec3 x : points) {
+    ++last;
+    imageint image = ((imageint)IMGMAX << IMG2BITS) | ((imageint)IMGMAX << IMGBITS) | IMGMAX;
+    domain->remap(x.data(), image);
+    int place[3];
+    if (comm->coord2proc(x.data(), place[0], place[1], place[2]) != comm->me) continue;
+    atom->avec->create_atom(type, x.data());
+    atom->tag[atom->nlocal - 1] = last;    // molecule and image stay 0
+  }
+  atom->data_fix_compute_variable(nlocal_previous, atom->nlocal);
+
+  bigint nlocal = atom->nlocal;
+  MPI_Allreduce(&nlocal, &atom->natoms, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  atom->tag_check();
+  if (atom->map_style != Atom::MAP_NONE) {
+    atom->map_init();
+    atom->map_set();
+  }
+
+  if (!atom->mass) return;
+  if (mass > 0)
+    atom->set_mass(FLERR, type, mass);
+  else if (!atom->mass_setflag[type]) {
+    atom->set_mass(FLERR, type, 1.0);
+    if (comm->me == 0)
+      utils::logmesg(lmp, "Mass of atom type {} set to 1.0, for it has not been set\n", type);
+  }
+}

@@ -1,0 +1,48 @@
+#pragma once
+
+namespace rbc {
+
+/// Keeps a quantity at a wanted value by an input to which it responds linearly. What else it depends on, the
+/// disturbance, changes with time and is extrapolated.
+class ResponseControl {
+ public:
+  double input() const { return input_; }
+
+  /// Finds the disturbance without input, then the response to this one, which must not be 0.
+  void probe(double input)
+  {
+    input_ = 0;
+    probe_ = input;
+    stage_ = Stage::WITHOUT_INPUT;
+  }
+  bool probing() const { return stage_ != Stage::KNOWN; }
+
+  /// From the value that the present input has given.
+  void adjust(double measured, double wanted)
+  {
+    switch (stage_) {
+      case Stage::WITHOUT_INPUT:
+        disturbance_ = measured;
+        input_ = probe_;
+        stage_ = Stage::WITH_PROBE;
+        return;
+      case Stage::WITH_PROBE:
+        response_ = (measured - disturbance_) / probe_;
+        input_ = (wanted - disturbance_) / response_;
+        stage_ = Stage::KNOWN;
+        return;
+      case Stage::KNOWN:
+        const double before = disturbance_;
+        disturbance_ = measured - response_ * input_;
+        input_ = (wanted - 2 * disturbance_ + before) / response_;
+    }
+  }
+
+ private:
+  enum class Stage { WITHOUT_INPUT, WITH_PROBE, KNOWN };
+
+  Stage stage_ = Stage::KNOWN;
+  double input_ = 0, probe_ = 0, response_ = 1, disturbance_ = 0;
+};
+
+}    // namespace rbc

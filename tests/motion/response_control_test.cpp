@@ -1,0 +1,57 @@
+#include "response_control.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+using rbc::ResponseControl;
+
+TEST(ResponseControl, IsRightAfterTwoProbes)
+{
+  for (const double probe : {-0.1, 1.0, 50.0})
+    for (const double offset : {0.0, -20.0}) {
+      const auto system = [&](double input) { return 3 * input + offset; };
+      ResponseControl control;
+      control.probe(probe);
+      int solves = 0;
+      for (; control.probing(); ++solves) control.adjust(system(control.input()), 2);
+      EXPECT_EQ(solves, 2);
+      EXPECT_NEAR(system(control.input()), 2, 1e-12);
+    }
+}
+
+/// The wanted value is that of the next time.
+TEST(ResponseControl, FollowsAWantedValueThatChanges)
+{
+  ResponseControl control;
+  control.probe(1);
+  const auto system = [](double input) { return 0.4 * input + 0.3; };
+  while (control.probing()) control.adjust(system(control.input()), 1);
+  for (int step = 0; step < 100; ++step) {
+    const double wanted = std::cos(0.5 * step);
+    control.adjust(system(control.input()), wanted);
+    EXPECT_NEAR(system(control.input()), wanted, 1e-13);
+  }
+}
+
+/// Off by the second difference of the disturbance; also where the response has changed since it was measured.
+TEST(ResponseControl, FollowsADisturbance)
+{
+  for (const double response : {0.4, 0.35, 0.45}) {
+    ResponseControl control;
+    control.probe(1);
+    while (control.probing()) control.adjust(0.4 * control.input(), 1);
+    double worst = 0;
+    for (int step = 0; step < 500; ++step) {
+      const double value = response * control.input() + 0.3 * std::sin(0.02 * step);
+      if (step > 20) worst = std::max(worst, std::abs(value - 1));
+      control.adjust(value, 1);
+    }
+    EXPECT_LT(worst, 1.1 * 0.3 * 0.02 * 0.02 * 0.4 / response);
+  }
+}
+
+}    // namespace
