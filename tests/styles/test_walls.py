@@ -256,7 +256,8 @@ class Vessel(unittest.TestCase):
             for plates in (False, True):
                 with self.subTest(kernel, plates=plates):
                     last = self.vessel("body 1e-5 0 0", kernel, plates)
-                    self.assertAlmostEqual(last["law"], 1, delta=0.006)
+                    # plates hold the fluid outside back
+                    self.assertAlmostEqual(last["law"], 1, delta=0.012 if plates else 0.006)
                     self.assertAlmostEqual(last["f_w[1]"] / (1e-5 * np.pi * self.RADIUS**2 * 32), 1,
                                            delta=0.01 if plates else 1e-3)
 
