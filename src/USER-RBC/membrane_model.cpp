@@ -173,6 +173,22 @@ double MembraneModel::bend_vertices()
   return energy;
 }
 
+/// Adds to the moments of the hinges, which are known.
+double MembraneModel::resist_creases()
+{
+  const CellElements &elements = *elements_;
+  const CreaseResistance &crease = parameters_.crease;
+  return sum(static_cast<int>(elements.hinges.size()), [&](int e) {
+    const PlainVector edge = position(x_, elements.end[e]) - position(x_, elements.begin[e]);
+    const double over_length = 1 / norm(edge);
+    const HingeAngle angle =
+        hinge_angle(over_length * edge, normal_[elements.left[e]], normal_[elements.right[e]]);
+    const HingeEnergy hinge = crease_resistance(crease, angle.sine, angle.cosine);
+    moment_[e] += hinge.by_angle * over_length;
+    return elements.hinge_counts[e] * hinge.value;
+  });
+}
+
 /// Forces of the triangles on their corners.
 template <BendingForm form, typename Law>
 MembraneEnergy MembraneModel::load(const Law &law, const CellSize &size)
@@ -180,6 +196,8 @@ MembraneEnergy MembraneModel::load(const Law &law, const CellSize &size)
   MembraneEnergy energy;
   if constexpr (form == BendingForm::dihedral) energy.bending = bend_hinges();
   if constexpr (form == BendingForm::helfrich) energy.bending = bend_vertices();
+  if constexpr (form != BendingForm::none)
+    if (parameters_.crease.stiffness > 0) energy.bending += resist_creases();
 
   const CellElements &elements = *elements_;
   // names, not structured bindings, which lambdas of C++17 cannot capture

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cell_elements.h"
+#include "crease_resistance.h"
 #include "mooney_rivlin.h"
 #include "neo_hookean.h"
 #include "skalak.h"
@@ -23,6 +24,7 @@ struct MembraneParameters {
   BendingForm bending_form = BendingForm::helfrich;
   bool reference_curvature = true;     ///< spontaneous curvature is that of the template, or else
   double spontaneous_curvature = 0;    ///< c0, the sum of both principal curvatures, 1/length
+  CreaseResistance crease;
   double global_area = 0, local_area = 0;    ///< force per length
   double volume = 0;                         ///< force per area
 };
@@ -78,6 +80,7 @@ class MembraneModel {
 
   double bend_hinges();
   double bend_vertices();
+  double resist_creases();
   template <BendingForm form, typename Law>
   MembraneEnergy load(const Law &law, const CellSize &size);
   void sum_corners(std::vector<Vec3> &f) const;
