@@ -133,6 +133,15 @@ rbc::MembraneParameters FixRBCMembrane::parse(int narg, char **arg)
                    arg[iarg + 2]);
       parameters.crease.cosine = cos(angle * MathConst::DEG2RAD);
       iarg += 3;
+    } else if (keyword == "stretch") {
+      need(2, keyword);
+      parameters.stretch.stiffness = not_negative(iarg + 1, "stretch k");
+      const double stretch = positive(iarg + 2, "stretch lambda");
+      if (stretch <= 1)
+        error->all(FLERR, iarg + 2, "Fix rbc/membrane stretch lambda value {} must be above 1",
+                   arg[iarg + 2]);
+      parameters.stretch.i1 = stretch * stretch + 1 / (stretch * stretch);
+      iarg += 3;
     } else if (keyword == "area") {
       need(2, keyword);
       parameters.global_area = not_negative(iarg + 1, "area kglobal");
@@ -177,7 +186,7 @@ rbc::MembraneParameters FixRBCMembrane::parse(int narg, char **arg)
     } else
       error->all(FLERR, iarg,
                  "Unknown fix rbc/membrane keyword {}; allowed: bending, area, volume, swell, "
-                 "stress-free, viscosity, crease",
+                 "stress-free, viscosity, crease, stretch",
                  keyword);
   }
   if (parameters.crease.stiffness > 0 && parameters.bending == 0)

@@ -212,6 +212,7 @@ MembraneEnergy MembraneModel::load(const Law &law, const CellSize &size)
       parameters_.global_area > 0 ? parameters_.global_area * area_strain : 0;
   const double pressure = parameters_.volume > 0 ? -parameters_.volume * volume_strain : 0;
   const double local_area = parameters_.local_area;
+  const StretchLimit limit = parameters_.stretch;
   const int count = elements.loaded;
 
   energy.sheet = sum(
@@ -219,8 +220,9 @@ MembraneEnergy MembraneModel::load(const Law &law, const CellSize &size)
         TriangleLoad triangle(edge1_[t], edge2_[t], normal_[t], twice_area_[t]);
         const auto &[g11, g12, g22, area] = shape_.reference[elements.triangles[t]];
         const double J = twice_area_[t] / (2 * area);
-        const SheetEnergy sheet = law(triangle.contract(g11, g12, g22), J);
-        const double by_i1 = sheet.by_i1 * area;
+        const double i1 = triangle.contract(g11, g12, g22);
+        const SheetEnergy sheet = law(i1, J), stiffening = stretch_limit(limit, i1);
+        const double by_i1 = (sheet.by_i1 + stiffening.by_i1) * area;
         triangle.add_metric(by_i1 * g11, by_i1 * g12, by_i1 * g22);
         triangle.add_tension(sheet.by_J + local_area * (J - 1) + global_tension);
         triangle.add_pressure(pressure);
@@ -239,7 +241,7 @@ MembraneEnergy MembraneModel::load(const Law &law, const CellSize &size)
         corner_force_.set(t, triangle.corner0());
         corner_force_.set(count + t, triangle.corner1());
         corner_force_.set(2 * count + t, triangle.corner2());
-        return elements.triangle_counts[t] * area * sheet.density;
+        return elements.triangle_counts[t] * area * (sheet.density + stiffening.density);
       });
 
   if (local_area > 0)

@@ -5,6 +5,7 @@
 #include "mooney_rivlin.h"
 #include "neo_hookean.h"
 #include "skalak.h"
+#include "stretch_limit.h"
 #include "surface_template.h"
 #include "vector_array.h"
 
@@ -25,6 +26,7 @@ struct MembraneParameters {
   bool reference_curvature = true;     ///< spontaneous curvature is that of the template, or else
   double spontaneous_curvature = 0;    ///< c0, the sum of both principal curvatures, 1/length
   CreaseResistance crease;
+  StretchLimit stretch;
   double global_area = 0, local_area = 0;    ///< force per length
   double volume = 0;                         ///< force per area
 };

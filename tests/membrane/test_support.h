@@ -307,6 +307,9 @@ inline std::map<std::string, rbc::MembraneParameters> each_energy()
     creased = sets.at(name);
     creased.crease = {0.2, 1};    // no edge near the angle at which it sets in
   }
+  rbc::MembraneParameters &stretched = add("stretch");
+  stretched.reference_curvature = false;
+  stretched.stretch = {0.3, 0};    // sets in everywhere
   add("local area").local_area = 4;
   add("global area").global_area = 4;
   add("volume").volume = 6;
