@@ -18,9 +18,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "tests" / "styles"))
+sys.path[:0] = [str(HERE.parent / "tests" / "styles"), str(HERE.parent / "scripts")]
 from lammps_case import POTENTIALS, Failed, dump_line, read_template, run  # noqa: E402
-from surfaces import least_gap  # noqa: E402
+from surface_distances import least_gap  # noqa: E402
 
 PLATES = 30.0    # um apart
 

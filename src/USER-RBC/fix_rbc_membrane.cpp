@@ -5,6 +5,7 @@
 #include "domain.h"
 #include "error.h"
 #include "force.h"
+#include "math_const.h"
 #include "membrane_viscosity.h"
 #include "modify.h"
 #include "neighbor.h"
@@ -122,6 +123,25 @@ rbc::MembraneParameters FixRBCMembrane::parse(int narg, char **arg)
           parameters.spontaneous_curvature = utils::numeric(FLERR, arg[iarg], false, lmp);
         }
       }
+    } else if (keyword == "crease") {
+      need(2, keyword);
+      parameters.crease.stiffness = not_negative(iarg + 1, "crease k");
+      const double angle = positive(iarg + 2, "crease angle");
+      if (angle >= 180)
+        error->all(FLERR, iarg + 2,
+                   "Fix rbc/membrane crease angle value {} must be below 180 degrees",
+                   arg[iarg + 2]);
+      parameters.crease.cosine = cos(angle * MathConst::DEG2RAD);
+      iarg += 3;
+    } else if (keyword == "stretch") {
+      need(2, keyword);
+      parameters.stretch.stiffness = not_negative(iarg + 1, "stretch k");
+      const double stretch = positive(iarg + 2, "stretch lambda");
+      if (stretch <= 1)
+        error->all(FLERR, iarg + 2, "Fix rbc/membrane stretch lambda value {} must be above 1",
+                   arg[iarg + 2]);
+      parameters.stretch.i1 = stretch * stretch + 1 / (stretch * stretch);
+      iarg += 3;
     } else if (keyword == "area") {
       need(2, keyword);
       parameters.global_area = not_negative(iarg + 1, "area kglobal");
@@ -166,9 +186,11 @@ rbc::MembraneParameters FixRBCMembrane::parse(int narg, char **arg)
     } else
       error->all(FLERR, iarg,
                  "Unknown fix rbc/membrane keyword {}; allowed: bending, area, volume, swell, "
-                 "stress-free, viscosity",
+                 "stress-free, viscosity, crease, stretch",
                  keyword);
   }
+  if (parameters.crease.stiffness > 0 && parameters.bending == 0)
+    error->all(FLERR, "Fix rbc/membrane crease needs a bending modulus > 0");
   if ((swelling.varies() || swelling.now() != 1) && !volume_kept && parameters.volume == 0)
     error->all(FLERR, "Fix rbc/membrane swell needs volume yes or a modulus of the volume");
   return parameters;

@@ -173,6 +173,22 @@ double MembraneModel::bend_vertices()
   return energy;
 }
 
+/// Adds to the moments of the hinges, which are known.
+double MembraneModel::resist_creases()
+{
+  const CellElements &elements = *elements_;
+  const CreaseResistance &crease = parameters_.crease;
+  return sum(static_cast<int>(elements.hinges.size()), [&](int e) {
+    const PlainVector edge = position(x_, elements.end[e]) - position(x_, elements.begin[e]);
+    const double over_length = 1 / norm(edge);
+    const HingeAngle angle =
+        hinge_angle(over_length * edge, normal_[elements.left[e]], normal_[elements.right[e]]);
+    const HingeEnergy hinge = crease_resistance(crease, angle.sine, angle.cosine);
+    moment_[e] += hinge.by_angle * over_length;
+    return elements.hinge_counts[e] * hinge.value;
+  });
+}
+
 /// Forces of the triangles on their corners.
 template <BendingForm form, typename Law>
 MembraneEnergy MembraneModel::load(const Law &law, const CellSize &size)
@@ -180,6 +196,8 @@ MembraneEnergy MembraneModel::load(const Law &law, const CellSize &size)
   MembraneEnergy energy;
   if constexpr (form == BendingForm::dihedral) energy.bending = bend_hinges();
   if constexpr (form == BendingForm::helfrich) energy.bending = bend_vertices();
+  if constexpr (form != BendingForm::none)
+    if (parameters_.crease.stiffness > 0) energy.bending += resist_creases();
 
   const CellElements &elements = *elements_;
   // names, not structured bindings, which lambdas of C++17 cannot capture
@@ -194,6 +212,7 @@ MembraneEnergy MembraneModel::load(const Law &law, const CellSize &size)
       parameters_.global_area > 0 ? parameters_.global_area * area_strain : 0;
   const double pressure = parameters_.volume > 0 ? -parameters_.volume * volume_strain : 0;
   const double local_area = parameters_.local_area;
+  const StretchLimit limit = parameters_.stretch;
   const int count = elements.loaded;
 
   energy.sheet = sum(
@@ -201,8 +220,9 @@ MembraneEnergy MembraneModel::load(const Law &law, const CellSize &size)
         TriangleLoad triangle(edge1_[t], edge2_[t], normal_[t], twice_area_[t]);
         const auto &[g11, g12, g22, area] = shape_.reference[elements.triangles[t]];
         const double J = twice_area_[t] / (2 * area);
-        const SheetEnergy sheet = law(triangle.contract(g11, g12, g22), J);
-        const double by_i1 = sheet.by_i1 * area;
+        const double i1 = triangle.contract(g11, g12, g22);
+        const SheetEnergy sheet = law(i1, J), stiffening = stretch_limit(limit, i1);
+        const double by_i1 = (sheet.by_i1 + stiffening.by_i1) * area;
         triangle.add_metric(by_i1 * g11, by_i1 * g12, by_i1 * g22);
         triangle.add_tension(sheet.by_J + local_area * (J - 1) + global_tension);
         triangle.add_pressure(pressure);
@@ -221,7 +241,7 @@ MembraneEnergy MembraneModel::load(const Law &law, const CellSize &size)
         corner_force_.set(t, triangle.corner0());
         corner_force_.set(count + t, triangle.corner1());
         corner_force_.set(2 * count + t, triangle.corner2());
-        return elements.triangle_counts[t] * area * sheet.density;
+        return elements.triangle_counts[t] * area * (sheet.density + stiffening.density);
       });
 
   if (local_area > 0)

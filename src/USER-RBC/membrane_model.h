@@ -1,9 +1,11 @@
 #pragma once
 
 #include "cell_elements.h"
+#include "crease_resistance.h"
 #include "mooney_rivlin.h"
 #include "neo_hookean.h"
 #include "skalak.h"
+#include "stretch_limit.h"
 #include "surface_template.h"
 #include "vector_array.h"
 
@@ -23,6 +25,8 @@ struct MembraneParameters {
   BendingForm bending_form = BendingForm::helfrich;
   bool reference_curvature = true;     ///< spontaneous curvature is that of the template, or else
   double spontaneous_curvature = 0;    ///< c0, the sum of both principal curvatures, 1/length
+  CreaseResistance crease;
+  StretchLimit stretch;
   double global_area = 0, local_area = 0;    ///< force per length
   double volume = 0;                         ///< force per area
 };
@@ -78,6 +82,7 @@ class MembraneModel {
 
   double bend_hinges();
   double bend_vertices();
+  double resist_creases();
   template <BendingForm form, typename Law>
   MembraneEnergy load(const Law &law, const CellSize &size);
   void sum_corners(std::vector<Vec3> &f) const;

@@ -23,7 +23,8 @@ inline void vertex_tension(const SurfaceTemplate &shape, const MembraneParameter
                       reference.g22 * e2.squaredNorm();
     const SheetEnergy sheet =
         std::visit([&](const auto &law) { return law(i1, J); }, parameters.law);
-    const double mean = sheet.by_i1 * i1 / J + sheet.by_J + parameters.local_area * (J - 1);
+    const double by_i1 = sheet.by_i1 + stretch_limit(parameters.stretch, i1).by_i1;
+    const double mean = by_i1 * i1 / J + sheet.by_J + parameters.local_area * (J - 1);
     for (int v : {i, j, k}) {
       tension[v] += share * mean;
       vertex_area[v] += share;

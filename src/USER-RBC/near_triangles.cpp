@@ -2,11 +2,11 @@
 
 #include "arc_tangent.h"
 #include "closest_point.h"
+#include "spatial_bins.h"
 #include "vector_loop.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace rbc {
 
@@ -28,53 +28,6 @@ double square(double s)
 
 }    // namespace
 
-/// Boxes of equal size that cover the points; what is outside counts to those at the rim.
-class NearTriangles::Bins {
- public:
-  Bins(const double *x, int points, double size)
-  {
-    constexpr double most = 1e6;
-    double lo[3], hi[3];
-    for (int d = 0; d < 3; ++d) {
-      lo[d] = std::numeric_limits<double>::max();
-      hi[d] = -lo[d];
-    }
-    for (int n = 0; n < points; ++n)
-      for (int d = 0; d < 3; ++d) {
-        lo[d] = std::min(lo[d], x[3 * std::size_t(n) + d]);
-        hi[d] = std::max(hi[d], x[3 * std::size_t(n) + d]);
-      }
-    double volume = 1;
-    for (int d = 0; d < 3; ++d) volume *= std::max(hi[d] - lo[d], size);
-    size_ = std::max(size, std::cbrt(volume / most));
-    inverse_ = 1 / size_;
-    for (int d = 0; d < 3; ++d) {
-      lo_[d] = lo[d];
-      count_[d] = points > 0 ? static_cast<int>((hi[d] - lo[d]) * inverse_) + 1 : 1;
-    }
-  }
-
-  int count() const { return count_[0] * count_[1] * count_[2]; }
-  int index(int i, int j, int k) const { return i + count_[0] * (j + count_[1] * k); }
-  int along(int d, double x) const
-  {
-    return static_cast<int>(std::min(std::max(0.0, (x - lo_[d]) * inverse_), count_[d] - 1.0));
-  }
-  int of(PlainVector x) const { return index(along(0, x.x), along(1, x.y), along(2, x.z)); }
-
-  /// Distance along a direction to the bins numbered n there; those at the rim have no end.
-  double distance(int d, int n, double x) const
-  {
-    const double lower = n == 0 ? x : lo_[d] + n * size_;
-    const double upper = n == count_[d] - 1 ? x : lo_[d] + (n + 1) * size_;
-    return std::max({0.0, lower - x, x - upper});
-  }
-
- private:
-  double lo_[3], size_, inverse_;
-  int count_[3];
-};
-
 void NearTriangles::Spheres::resize(std::size_t size)
 {
   for (auto *numbers : {&x, &y, &z, &radius}) numbers->resize(size);
@@ -93,11 +46,14 @@ void NearTriangles::Spheres::set(int n, PlainVector centre, double r, Surface s,
 }
 
 void NearTriangles::build(int points, const Surface *surfaces, int corners, const double *x,
-                          const std::vector<Triangle> &triangles, double range, double slack)
+                          const std::vector<Triangle> &triangles, double range, double slack,
+                          double travel)
 {
   surfaces_.assign(surfaces, surfaces + points);
   triangles_ = triangles;
   reach_ = range + slack;
+  slack_ = slack;
+  travel_ = travel;
   build_fans(corners);
   corners_ = corners;
   rebuild(x);
@@ -105,9 +61,10 @@ void NearTriangles::build(int points, const Surface *surfaces, int corners, cons
 
 void NearTriangles::rebuild(const double *x)
 {
-  built_.hold(x, corners_);
-  const double far = reach_ + bound_triangles(x);
-  const Bins bins(x, corners_, far);
+  const double radius = bound_triangles(x), far = reach_ + radius;
+  const double all_corners = reach_ + 2 * radius;    // of triangles in reach are as near
+  motion_.hold(x, corners_, std::max(all_corners + slack_, (all_corners + travel_) / 2));
+  const SpatialBins bins(x, corners_, far);
   sort_spheres(bins);
 
   groups_.clear();
@@ -138,7 +95,7 @@ double NearTriangles::bound_triangles(const double *x)
   return std::sqrt(largest2);
 }
 
-void NearTriangles::sort_spheres(const Bins &bins)
+void NearTriangles::sort_spheres(const SpatialBins &bins)
 {
   const std::size_t count = triangles_.size();
   bin_begin_.assign(bins.count() + 1, 0);
@@ -159,7 +116,7 @@ void NearTriangles::sort_spheres(const Bins &bins)
    triangles whose spheres are in reach of a point: those of a row of bins follow each other
 ------------------------------------------------------------------------- */
 
-void NearTriangles::find_hits(const Bins &bins, PlainVector p, Surface own, double far)
+void NearTriangles::find_hits(const SpatialBins &bins, PlainVector p, Surface own, double far)
 {
   hits_.clear();
   const int j0 = bins.along(1, p.y - far), j1 = bins.along(1, p.y + far);
@@ -224,11 +181,21 @@ void NearTriangles::build_fans(int corners)
 }
 
 /* ----------------------------------------------------------------------
-   no triangle can be nearer than it was less what it and the point moved
+   a triangle with a corner further away than `near` was beyond reach by `slack`
+------------------------------------------------------------------------- */
+
+double NearTriangles::largest_approach(const double *x)
+{
+  const auto [near, wider] = motion_.differences(x);
+  return std::max(near, wider - slack_);
+}
+
+/* ----------------------------------------------------------------------
+   no triangle can be nearer than it was less what it and the point came nearer to each other
 ------------------------------------------------------------------------- */
 
 const std::vector<NearTriangles::Contact> &NearTriangles::contacts(const double *x, double range,
-                                                                   double moved)
+                                                                   double approach)
 {
   contacts_.clear();
   for (const Group &group : groups_) {
@@ -238,7 +205,7 @@ const std::vector<NearTriangles::Contact> &NearTriangles::contacts(const double 
     std::array<double, 3> weight{};
     PlainVector apart{};
     for (int n = group.begin; n < group.end; ++n) {
-      const double least = candidates_[n].distance - 2 * moved;
+      const double least = candidates_[n].distance - approach;
       if (least > 0 && square(least) > nearest2) break;
       const Triangle &triangle = triangles_[candidates_[n].triangle];
       const PlainVector a = at(x, triangle.corner[0]), b = at(x, triangle.corner[1]),
@@ -302,7 +269,7 @@ std::size_t NearTriangles::bytes() const
   for (const auto *numbers : {&fan_begin_, &fans_, &bin_begin_, &bin_of_, &next_, &hits_})
     integers += numbers->capacity();
   return integers * sizeof(int) + surfaces_.capacity() * sizeof(Surface) +
-         triangles_.capacity() * sizeof(Triangle) + built_.bytes() +
+         triangles_.capacity() * sizeof(Triangle) + motion_.bytes() +
          bounds_.capacity() *
              (sizeof(Sphere) + 4 * sizeof(double) + sizeof(Surface) + sizeof(int)) +
          groups_.capacity() * sizeof(Group) + candidates_.capacity() * sizeof(Candidate) +

@@ -1,13 +1,15 @@
 #pragma once
 
-#include "held_positions.h"
 #include "plain_vector.h"
+#include "relative_motion.h"
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
 namespace rbc {
+
+class SpatialBins;
 
 /// Finds for points the closest point on each closed triangulated surface near them. Surfaces have numbers; a point
 /// belongs to one and does not see it. Triangles may be a part of a surface, as long as those that share a corner with one
@@ -30,20 +32,22 @@ class NearTriangles {
     double gap;            ///< distance, negative inside
   };
 
-  /// Finds what comes within `range` of each other before a corner has moved by slack / 2. `surfaces[n]` is that of
-  /// point n < points; triangles have their corners among the `corners` first positions.
+  /// Finds what comes within `range` of each other before neighbors have come nearer by `slack` and anything has moved by
+  /// travel / 2. `surfaces[n]` is that of point n < points; triangles have their corners among the `corners` first
+  /// positions.
   void build(int points, const Surface *surfaces, int corners, const double *x,
-             const std::vector<Triangle> &triangles, double range, double slack);
+             const std::vector<Triangle> &triangles, double range, double slack, double travel);
 
   /// The same again for other positions.
   void rebuild(const double *x);
 
-  /// Largest distance that a corner moved since that.
-  double largest_displacement(const double *x) const { return built_.largest_displacement(x); }
+  /// By how much at most a point and a triangle in reach of it have come nearer since that: small where both move
+  /// with the same flow. A flow that carries them along is allowed to move them by travel / 2.
+  double largest_approach(const double *x);
 
-  /// All points nearer than range to a surface: one contact for each such surface. `moved` is the largest
-  /// displacement since the last build or rebuild.
-  const std::vector<Contact> &contacts(const double *x, double range, double moved);
+  /// All points nearer than range to a surface: one contact for each such surface. `approach` is the largest since the
+  /// last build or rebuild.
+  const std::vector<Contact> &contacts(const double *x, double range, double approach);
 
   std::size_t bytes() const;
 
@@ -72,11 +76,11 @@ class NearTriangles {
     void set(int n, PlainVector centre, double radius, Surface surface, int triangle);
   };
 
-  double reach_ = 0;
+  double reach_ = 0, slack_ = 0, travel_ = 0;
   std::vector<Surface> surfaces_;    // of points
   std::vector<Triangle> triangles_;
   std::vector<int> fan_begin_, fans_;    // triangles around each corner
-  HeldPositions built_;
+  RelativeMotion motion_;
   int corners_ = 0;
   std::vector<Sphere> bounds_;    // of each triangle
   Spheres spheres_;
@@ -85,12 +89,10 @@ class NearTriangles {
   std::vector<Candidate> candidates_;
   std::vector<Contact> contacts_;
 
-  class Bins;
-
   void build_fans(int corners);
   double bound_triangles(const double *x);
-  void sort_spheres(const Bins &bins);
-  void find_hits(const Bins &bins, PlainVector point, Surface own, double far);
+  void sort_spheres(const SpatialBins &bins);
+  void find_hits(const SpatialBins &bins, PlainVector point, Surface own, double far);
   void add_candidates(const double *x, int point);
   PlainVector outward(const double *x, const std::array<int, 3> &corner,
                       const std::array<double, 3> &weight, PlainVector face) const;

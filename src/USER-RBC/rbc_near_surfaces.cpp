@@ -119,8 +119,9 @@ void NearSurfaces::build(double range, double slack_of_ghosts, double stale)
     owners[i] = atom->molecule[i];
     if (cell_of(i)) points = i + 1;
   }
+  const double travel = 2 * slack_of_ghosts;    // back and forth
   finder.build(points, owners.data(), atom->nlocal + atom->nghost, atom->x[0], triangles, range,
-               slack);
+               slack, travel);
 }
 
 /* ----------------------------------------------------------------------
@@ -173,12 +174,12 @@ bool NearSurfaces::are_near(int i, int j, double longest) const
 const std::vector<NearSurfaces::Contact> &NearSurfaces::contacts(double range)
 {
   check_moved();
-  double moved = finder.largest_displacement(atom->x[0]);
-  if (2 * moved > slack) {
+  double approach = finder.largest_approach(atom->x[0]);
+  if (approach > slack) {
     finder.rebuild(atom->x[0]);
-    moved = 0;
+    approach = 0;
   }
-  return finder.contacts(atom->x[0], range, moved);
+  return finder.contacts(atom->x[0], range, approach);
 }
 
 void NearSurfaces::check_moved()

@@ -1,6 +1,7 @@
 #ifndef LMP_RBC_NEAR_SURFACES_H
 #define LMP_RBC_NEAR_SURFACES_H
 
+#include "held_positions.h"
 #include "lmptype.h"
 #include "near_triangles.h"
 #include "pointers.h"

@@ -1,3 +1,4 @@
+#include "held_positions.h"
 #include "near_triangles.h"
 
 #include "test_support.h"
@@ -9,7 +10,7 @@ using test::Vec3;
 
 namespace {
 
-constexpr double range = 0.25, slack = 0.1;
+constexpr double range = 0.25, slack = 0.1, travel = 0.4;
 
 /// Several cells side by side, so close that they overlap a little, as one array of points.
 class Cells {
@@ -66,13 +67,17 @@ TEST_P(Finder, AgreesWithAllDistancesAndSolidAngles)
   Cells cells(GetParam());
   NearTriangles finder;
   finder.build(cells.size(), cells.surfaces.data(), cells.size(), cells.data(), cells.triangles,
-               range, slack);
+               range, slack, travel);
   for (double moved : {0.0, 0.3 * slack, 0.5 * slack}) {
     Cells there = cells;
     there.move(moved, 5);
-    EXPECT_NEAR(finder.largest_displacement(there.data()), moved, 1e-12);
+    for (Vec3 &v : there.x) v += Vec3(0.05, -0.05, 0.03);
+    const double approach = finder.largest_approach(there.data());
+    EXPECT_LE(approach, 2 * std::sqrt(3.0) * moved + 1e-12)
+        << "what moves them together counts not";
+    EXPECT_GE(approach, 1.8 * moved);
     std::map<std::pair<int, NearTriangles::Surface>, double> found;
-    for (const auto &contact : finder.contacts(there.data(), range, moved)) {
+    for (const auto &contact : finder.contacts(there.data(), range, 2 * moved)) {
       const auto surface = there.surfaces[contact.corner[0]];
       EXPECT_TRUE(found.emplace(std::make_pair(contact.point, surface), contact.gap).second);
       Vec3 p = Vec3::Zero();
@@ -103,12 +108,12 @@ TEST_P(Finder, RebuiltForOtherPositions)
   Cells cells(GetParam());
   NearTriangles finder, anew;
   finder.build(cells.size(), cells.surfaces.data(), cells.size(), cells.data(), cells.triangles,
-               range, slack);
+               range, slack, travel);
   cells.move(0.2, 8);
   finder.rebuild(cells.data());
-  EXPECT_EQ(finder.largest_displacement(cells.data()), 0);
+  EXPECT_EQ(finder.largest_approach(cells.data()), 0);
   anew.build(cells.size(), cells.surfaces.data(), cells.size(), cells.data(), cells.triangles,
-             range, slack);
+             range, slack, travel);
   const auto &found = finder.contacts(cells.data(), range, 0);
   const auto &expected = anew.contacts(cells.data(), range, 0);
   ASSERT_EQ(found.size(), expected.size());
@@ -134,7 +139,7 @@ TEST(Finder, PointOnTheSurface)
   surfaces.resize(corners + 2, 2);
   NearTriangles finder;
   finder.build(corners + 2, surfaces.data(), corners + 2, mesh.vertices[0].data(), triangles, range,
-               0);
+               0, 0);
   const auto &contacts = finder.contacts(mesh.vertices[0].data(), range, 0);
   ASSERT_EQ(contacts.size(), 2u);
   for (const auto &contact : contacts) {
@@ -142,6 +147,41 @@ TEST(Finder, PointOnTheSurface)
     const Vec3 normal(contact.normal.x, contact.normal.y, contact.normal.z);
     EXPECT_GT(std::abs(normal.dot(mesh.vertices[contact.point].normalized())), 0.99);
   }
+}
+
+/// Spheres in two distant groups, each of which moves as one, differ in motion only far from each other.
+TEST(RelativeMotion, CountsBetweenNeighborsOnly)
+{
+  test::Random random(3);
+  std::vector<Vec3> x;
+  for (int n = 0; n < 400; ++n) {
+    const Vec3 place = random.vector(0, 4);
+    x.push_back(n % 2 ? place : Vec3(place + Vec3(20, 0, 0)));
+  }
+  constexpr double near = 1.3;
+  rbc::RelativeMotion motion;
+  motion.hold(x[0].data(), static_cast<int>(x.size()), near);
+  std::vector<Vec3> there = x;
+  for (Vec3 &v : there) v += v[0] > 10 ? Vec3(3, 0, 0) : Vec3(0, -3, 0);
+  EXPECT_NEAR(motion.differences(there[0].data()).wider, 0, 1e-14);
+
+  for (Vec3 &v : there) v += 0.01 * v[2] * Vec3::UnitX() + 1e-3 * random.direction();
+  double nearest = 0, wider = 0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double apart = (x[i] - x[j]).norm();
+      const double difference = (there[i] - x[i] - there[j] + x[j]).norm();
+      if (apart < near) nearest = std::max(nearest, difference);
+      if (apart < 2 * near) wider = std::max(wider, difference);
+    }
+  const auto bounds = motion.differences(there[0].data());
+  EXPECT_GE(bounds.near, nearest);
+  EXPECT_LE(bounds.near, 0.01 * 3 * near + 4e-3) << "three bins";
+  EXPECT_GE(bounds.wider, wider);
+  EXPECT_LE(bounds.wider, 0.04 + 4e-3);
+
+  there[7][1] = NAN;
+  EXPECT_EQ(motion.differences(there[0].data()).near, HUGE_VAL);
 }
 
 TEST(HeldPositions, FurthestMoved)
@@ -159,8 +199,8 @@ TEST(HeldPositions, FurthestMoved)
 TEST(Finder, NothingNear)
 {
   NearTriangles finder;
-  finder.build(0, nullptr, 0, nullptr, {}, range, slack);
-  EXPECT_EQ(finder.largest_displacement(nullptr), 0);
+  finder.build(0, nullptr, 0, nullptr, {}, range, slack, travel);
+  EXPECT_EQ(finder.largest_approach(nullptr), 0);
   EXPECT_TRUE(finder.contacts(nullptr, range, 0).empty());
 }
 

@@ -231,4 +231,31 @@ TEST(Bending, NormalForceOnTheDiscIsOfSecondOrderInBandsAndInTheMedian)
   EXPECT_LT(last.median, 0.01 * last.exact);
 }
 
+/// Of a closed shape with k_c = 1 and theta_c = 60 degrees.
+double crease_energy(const Mesh &mesh, rbc::MembraneParameters parameters)
+{
+  const auto energy = [&] {
+    return evaluate(mesh.surface(), parameters, mesh.vertices).energy.bending;
+  };
+  const double smooth = energy();
+  parameters.crease = {1, 0.5};
+  return energy() - smooth;
+}
+
+TEST(Crease, EnergyIsThatOfTheAnglesOfPlatonicSolids)
+{
+  // 6 edges, cosine -1/3
+  const Mesh tetrahedron{{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
+                         {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}};
+  // 12 edges, cosine 1/3
+  const Mesh octahedron{
+      {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+      {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
+  for (const auto &parameters : {bending(0.1, 0), dihedral(0.1, 0)}) {
+    EXPECT_NEAR(crease_energy(tetrahedron, parameters), 6.25, 1e-12);
+    EXPECT_NEAR(crease_energy(octahedron, parameters), 0.25, 1e-12);
+    EXPECT_EQ(crease_energy(icosphere(1), parameters), 0) << "42 degrees";
+  }
+}
+
 }    // namespace

@@ -261,4 +261,19 @@ TEST(SheetStretch, PenaltiesOfAnInflatedCell)
   }
 }
 
+TEST(SheetStretch, LimitSetsInAtItsStretch)
+{
+  const rbc::SurfaceTemplate shape = disc(4).surface();
+  rbc::MembraneParameters parameters;
+  parameters.law = rbc::Skalak(0, 0);
+  parameters.stretch = {0.6, 4.25};    // a stretch of 2
+  for (double l : {0.5, 1.0, 1.457})
+    EXPECT_EQ(evaluate(shape, parameters, inflated(shape, l)).energy.total(), 0) << l;
+  for (double l : {1.459, 2.0, 3.0}) {
+    const double expected = 0.3 * std::pow(2 * l * l - 4.25, 2) * shape.area;
+    EXPECT_NEAR(evaluate(shape, parameters, inflated(shape, l)).energy.sheet, expected,
+                1e-11 * shape.area + 1e-13 * expected);
+  }
+}
+
 }    // namespace

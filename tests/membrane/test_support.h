@@ -302,6 +302,14 @@ inline std::map<std::string, rbc::MembraneParameters> each_energy()
   for (const char *name : {"bending, reference", "bending, c0 = 0", "bending, c0 = -1.7"})
     (add(std::string(name) + ", dihedral") = sets.at(name)).bending_form =
         rbc::BendingForm::dihedral;
+  for (const char *name : {"bending, c0 = 0", "bending, c0 = 0, dihedral"}) {
+    rbc::MembraneParameters &creased = add(std::string(name) + ", crease");
+    creased = sets.at(name);
+    creased.crease = {0.2, 1};    // no edge near the angle at which it sets in
+  }
+  rbc::MembraneParameters &stretched = add("stretch");
+  stretched.reference_curvature = false;
+  stretched.stretch = {0.3, 0};    // sets in everywhere
   add("local area").local_area = 4;
   add("global area").global_area = 4;
   add("volume").volume = 6;

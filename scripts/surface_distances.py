@@ -60,9 +60,9 @@ def triangle_distances(first, second):
     return least
 
 
-def least_gap(cells, box, periodic, reach):
-    """Between surfaces (lists of vertices and triangles) with their images, up to `reach`; cells within cells are not
-    noticed."""
+def pair_distances(cells, box, periodic, reach):
+    """Least distance of each two surfaces (lists of vertices and triangles), images too, that are nearer than `reach`;
+    cells within cells are not noticed."""
     meshes = []
     for vertices, triangles in cells:
         corners = vertices[triangles]
@@ -72,18 +72,34 @@ def least_gap(cells, box, periodic, reach):
         meshes.append((corners, middles, size, centre, np.linalg.norm(vertices - centre, axis=1).max()))
     images = list(itertools.product(*[(-1, 0, 1) if wraps else (0,) for wraps in periodic]))
     centres, radii = np.array([mesh[3] for mesh in meshes]), np.array([mesh[4] for mesh in meshes])
-    least = reach
+    distances = []
     for n, (corners, middles, size, centre, radius) in enumerate(meshes):
         base = np.round((centres - centre) / box) * np.array(periodic)
         for image in images:
             shifts = (np.array(image) - base) * box
-            near = np.linalg.norm(centres + shifts - centre, axis=1) < radii + radius + least
+            near = np.linalg.norm(centres + shifts - centre, axis=1) < radii + radius + reach
             for other in np.flatnonzero(near):
                 if other <= n:
                     continue
                 others, their_middles, their_size = meshes[other][:3]
-                apart = middles[:, None] - (their_middles + shifts[other])[None]
-                i, j = np.nonzero(np.einsum("ijk,ijk->ij", apart, apart) < (size + their_size + least)**2)
+                shift = shifts[other]
+                close = size + their_size + reach
+                mine = _inside(middles, their_middles + shift, close)
+                theirs = _inside(their_middles + shift, middles, close)
+                apart = middles[mine][:, None] - (their_middles[theirs] + shift)[None]
+                i, j = np.nonzero(np.einsum("ijk,ijk->ij", apart, apart) < close**2)
                 if len(i):
-                    least = min(least, triangle_distances(corners[i], others[j] + shifts[other]).min())
-    return least
+                    least = triangle_distances(corners[mine[i]], others[theirs[j]] + shift).min()
+                    if least < reach:
+                        distances.append(least)
+    return np.array(distances)
+
+
+def _inside(points, others, margin):
+    """Numbers of the points in the box around the others."""
+    return np.flatnonzero(((points > others.min(axis=0) - margin) & (points < others.max(axis=0) + margin)).all(axis=1))
+
+
+def least_gap(cells, box, periodic, reach):
+    """Between any two surfaces, up to `reach`."""
+    return pair_distances(cells, box, periodic, reach).min(initial=reach)

@@ -1,0 +1,89 @@
+#include "relative_motion.h"
+
+#include "spatial_bins.h"
+
+namespace rbc {
+
+namespace {
+
+constexpr double NEVER = std::numeric_limits<double>::max();
+
+}    // namespace
+
+void RelativeMotion::Extent::add(const Extent &other)
+{
+  for (int d = 0; d < 3; ++d) {
+    lo[d] = std::min(lo[d], other.lo[d]);
+    hi[d] = std::max(hi[d], other.hi[d]);
+  }
+}
+
+void RelativeMotion::hold(const double *x, int points, double near)
+{
+  held_.assign(x, x + 3 * std::size_t(points));
+  const SpatialBins bins(x, points, near);
+  for (int d = 0; d < 3; ++d) count_[d] = bins.count(d);
+  bin_.resize(points);
+  for (int n = 0; n < points; ++n)
+    bin_[n] = bins.of(
+        {held_[3 * std::size_t(n)], held_[3 * std::size_t(n) + 1], held_[3 * std::size_t(n) + 2]});
+}
+
+RelativeMotion::Differences RelativeMotion::differences(const double *x)
+{
+  const std::size_t bins = std::size_t(count_[0]) * count_[1] * count_[2];
+  extents_.assign(bins, {{NEVER, NEVER, NEVER}, {-NEVER, -NEVER, -NEVER}});
+  bool numbers = true;
+  for (std::size_t n = 0; n < bin_.size(); ++n) {
+    Extent &extent = extents_[bin_[n]];
+    for (int d = 0; d < 3; ++d) {
+      const double moved = x[3 * n + d] - held_[3 * n + d];
+      numbers &= std::abs(moved) < NEVER;
+      extent.lo[d] = std::min(extent.lo[d], moved);
+      extent.hi[d] = std::max(extent.hi[d], moved);
+    }
+  }
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  if (!numbers) return {infinite, infinite};
+
+  Differences differences;
+  merge_neighbors();
+  differences.near = widest();
+  merge_neighbors();
+  differences.wider = widest();
+  return differences;
+}
+
+void RelativeMotion::merge_neighbors()
+{
+  for (std::size_t d = 0, stride = 1; d < 3; stride *= count_[d++]) {
+    merged_ = extents_;
+    for (std::size_t b = 0; b < extents_.size(); ++b) {
+      const int place = static_cast<int>(b / stride % count_[d]);
+      if (place > 0) merged_[b].add(extents_[b - stride]);
+      if (place < count_[d] - 1) merged_[b].add(extents_[b + stride]);
+    }
+    extents_.swap(merged_);
+  }
+}
+
+double RelativeMotion::widest() const
+{
+  double widest2 = 0;
+  for (const Extent &extent : extents_) {
+    if (extent.lo[0] > extent.hi[0]) continue;
+    double sum = 0;
+    for (int d = 0; d < 3; ++d)
+      sum += (extent.hi[d] - extent.lo[d]) * (extent.hi[d] - extent.lo[d]);
+    widest2 = std::max(widest2, sum);
+  }
+  return std::sqrt(widest2);
+}
+
+std::size_t RelativeMotion::bytes() const
+{
+  return held_.capacity() * sizeof(double) + bin_.capacity() * sizeof(int) +
+         (extents_.capacity() + merged_.capacity()) * sizeof(Extent);
+}
+
+}    // namespace rbc

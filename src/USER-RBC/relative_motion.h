@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+namespace rbc {
+
+/// How differently points have moved that were near each other.
+class RelativeMotion {
+ public:
+  /// Positions, three numbers for each point, from which displacements count.
+  void hold(const double *x, int points, double near);
+
+  /// Bounds of the difference of the displacements of any two points: infinite if one is not a number.
+  struct Differences {
+    double near;     ///< where they were nearer than `near`
+    double wider;    ///< where they were nearer than twice that
+  };
+  Differences differences(const double *x);
+
+  std::size_t bytes() const;
+
+ private:
+  /// Displacements of several points.
+  struct Extent {
+    double lo[3], hi[3];
+
+    void add(const Extent &other);
+  };
+
+  int count_[3] = {0, 0, 0};    // of bins
+  std::vector<double> held_;
+  std::vector<int> bin_;                    // of each point
+  std::vector<Extent> extents_, merged_;    // of each bin; with its neighbors
+
+  void merge_neighbors();
+  double widest() const;
+};
+
+}    // namespace rbc
