@@ -1,0 +1,142 @@
+#!/usr/bin/python3
+"""Blood sheared at 10, 60 and 100 /s, with adhesion and without: runs in.suspension in a folder for each case, and draws the
+relative viscosity, the sizes of aggregates as Figure 12 of the paper, the gaps between cells, and the cells.
+
+  study.py --folder runs --cells 128 --ranks 2      # cases of which the folder is there already are not run again
+
+Writes suspension.csv and suspension.png here. --only names cases: a10, a60, a100 adhesive, r10, r60, r100 repulsive.
+"""
+import csv
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import matplotlib
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "scripts"))
+import example_study  # noqa: E402
+from plot_aggregates import COLORS, mean_classes  # noqa: E402
+from read_ave_time import read_ave_time  # noqa: E402
+from snapshots import surfaces  # noqa: E402
+from surface_distances import pair_distances  # noqa: E402
+from surface_gaps import read_cells  # noqa: E402
+
+SCRIPTS = HERE.parents[1] / "scripts"
+RATES = 10, 60, 100                          # 1/s
+KINDS = {"a": 2.0e-4, "r": 0.0}              # work of adhesion, mJ/m^2
+NAMES = {"a": "adhesive", "r": "repulsive"}
+VOLUME, HEMATOCRIT, GAP = 93.53, 0.45, 30    # of in.suspension
+SETTLED = 10                                 # strain from which means are taken
+REACH = 0.6                                  # gaps that count, um
+
+
+def log_table(path):
+    """Columns by name of the table in a LAMMPS log; a line cut short at the end is left out."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    start = next(n for n, line in enumerate(lines) if line.split()[:1] == ["Step"])
+    names = lines[start].split()
+    rows = []
+    for line in lines[start + 1:]:
+        if not re.fullmatch(r"[-+.\deE\s]+", line) or len(line.split()) != len(names):
+            break
+        rows.append(line.split())
+    return dict(zip(names, np.array(rows, dtype=float).T))
+
+
+def gaps(folder, cells):
+    """Least distances of neighboring cells in all files of surfaces, 0 where they cut each other."""
+    edge = (cells * VOLUME / HEMATOCRIT / GAP)**0.5
+    return [pair_distances(read_cells(name), np.array([edge, edge, GAP]), (True, True, False), REACH)
+            for _, name in surfaces(folder)]
+
+
+def measure(folder, cells):
+    table, history = log_table(folder / "log.lammps"), read_ave_time(folder / "cell.dat")
+    strain, steps = table["v_sheared"], table["Step"]
+    late = strain >= min(SETTLED, strain[-1] / 2)
+    volumes = history.column(6)
+    classes = mean_classes(folder / "classes.dat", steps[late][0])
+    cells_in = np.repeat(classes.edges, np.round(100 * classes.aggregates).astype(int))
+    pairs = gaps(folder, cells)
+    return {
+        "strain": strain[-1], "viscosity": table["v_relative"][late].mean(), "classes": classes,
+        "median": np.median(cells_in[cells_in > 1]), "singles": classes.aggregates[0] / cells,
+        "mean": cells / table["c_agg[1]"][late].mean(), "largest": table["c_agg[4]"][late].mean(),
+        "lost": cells - volumes.shape[1], "volume": abs(volumes / volumes[0] - 1).max(),
+        "least": min(p.min() for p in pairs), "cut": sum(int((p == 0).sum()) for p in pairs),
+        "pairs": np.concatenate(pairs[1:] or pairs), "history": (strain, table["v_relative"]),
+    }
+
+
+def write(cases, path):
+    columns = "strain", "viscosity", "median", "mean", "largest", "singles", "lost", "volume", "least", "cut"
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["case", *columns])
+        for name, case in cases.items():
+            writer.writerow([name, *(f"{float(case[column]):.4g}" for column in columns)])
+
+
+def draw(cases, pictures, path):
+    figure = plt.figure(figsize=(13, 9.4), layout="constrained")
+    axes = figure.subplot_mosaic([["viscosity", "sizes", "gaps"], ["10", "60", "100"]], height_ratios=(3, 4))
+    axes["sizes"].set_xticks(range(10), [str(2**n) for n in range(10)])
+    bars = [name for name in cases if name[0] == "a"]
+    for name, case in cases.items():
+        color, line = COLORS[RATES.index(int(name[1:]))], "-" if name[0] == "a" else "--"
+        label = f"{name[1:]} /s, {NAMES[name[0]]}"
+        axes["viscosity"].plot(*case["history"], line, color=color, label=label)
+        counts, edges = np.histogram(case["pairs"], np.arange(0, REACH + 0.01, 0.04))
+        axes["gaps"].stairs(100 * counts / counts.sum(), edges, color=color, linestyle=line, label=label)
+        if name in bars:
+            places = np.arange(len(case["classes"].edges)) + 0.26 * (bars.index(name) - 1)
+            axes["sizes"].bar(places, 100 * case["classes"].fractions(False), 0.26, color=color, label=f"{name[1:]} /s")
+    axes["viscosity"].set(xlabel="strain", ylabel="viscosity over that of plasma", ylim=(0, None))
+    axes["sizes"].set(xlabel="cells in the aggregate, from", ylabel="aggregates (%)", xlim=(0.4, 8.6))
+    axes["gaps"].set(xlabel="least gap of two neighbors (um)", ylabel="pairs (%)")
+    for name in ("viscosity", "sizes", "gaps"):
+        axes[name].legend(frameon=False, fontsize=8)
+    for rate in map(str, RATES):
+        axes[rate].axis("off")
+        if rate in pictures:
+            axes[rate].imshow(plt.imread(pictures[rate]))
+            axes[rate].set_title(f"{rate} /s, adhesive, each aggregate of one color")
+    figure.savefig(path, dpi=110)
+
+
+def main():
+    parser = example_study.options(__doc__)
+    parser.add_argument("--folder", type=Path, default=HERE / "runs", help="of the runs")
+    parser.add_argument("--cells", type=int, default=512)
+    arguments = parser.parse_args()
+    cases, pictures = {}, {}
+    for kind, work in KINDS.items():
+        for rate in RATES:
+            name, folder = f"{kind}{rate}", arguments.folder / f"{kind}{rate}"
+            if not (folder / "log.lammps").exists():
+                if not example_study.wanted(arguments, name):
+                    continue
+                folder.mkdir(parents=True, exist_ok=True)
+                command = [arguments.lmp, "-in", HERE / "in.suspension", "-var", "templates", example_study.POTENTIALS,
+                           "-var", "rate", str(rate), "-var", "sigma", str(work), "-var", "cells", str(arguments.cells)]
+                if arguments.ranks > 1:
+                    command = ["mpirun", "-np", str(arguments.ranks), *command]
+                subprocess.run(command, cwd=folder, check=False, stdout=subprocess.DEVNULL)
+            cases[name] = measure(folder, arguments.cells)
+            print(name, {key: value for key, value in cases[name].items() if np.isscalar(value)}, flush=True)
+            if kind == "a":
+                pictures[str(rate)] = folder / "last.png"
+                subprocess.run([SCRIPTS / "render_cells.py", surfaces(folder)[-1][1], "-o", pictures[str(rate)],
+                                "--color", "aggregate", "--view", "20", "15", "--size", "900x900", "--zoom", "1.2"],
+                               check=True)
+    write(cases, HERE / "suspension.csv")
+    draw(cases, pictures, HERE / "suspension.png")
+
+
+if __name__ == "__main__":
+    main()
