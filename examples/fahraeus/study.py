@@ -1,0 +1,193 @@
+#!/usr/bin/python3
+"""Viscosity, hematocrit and cell-free layer of blood in tubes, over time, beside the fits of Pries et al. to measurements.
+
+Runs in.fahraeus in a folder for each case, and once without cells, writes fahraeus.csv and draws fahraeus.png. Cases of
+which the folder is there already are not run again.
+
+  study.py --folder runs [--lmp ../../build/lmp_rbc] [--only d20h30 d20h45 d10h30]
+"""
+import csv
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "scripts"))
+import example_study  # noqa: E402
+from read_ave_time import read_ave_time  # noqa: E402
+from snapshots import surfaces  # noqa: E402
+
+CASES = {    # diameter and hematocrit in the tube, and what differs from in.fahraeus
+    "d20h30": (20, 0.3, {}),
+    "d20h45": (20, 0.45, {}),
+    "d10h30": (10, 0.3, {"length": 19.2}),
+}
+RATE = 50e-6             # mean velocity over diameter, 1/us
+COLORS = "#b3202a", "#2a6fb0", "#4b8b3b"
+
+
+def pries_viscosity(diameter, discharge):
+    """Relative apparent viscosity (Pries et al. 1992) for a discharge hematocrit; diameter in um."""
+    at45 = 220 * np.exp(-1.3 * diameter) + 3.2 - 2.44 * np.exp(-0.06 * diameter**0.645)
+    wide = 1 / (1 + 1e-11 * diameter**12)
+    exponent = (0.8 + np.exp(-0.075 * diameter)) * (wide - 1) + wide
+    return 1 + (at45 - 1) * ((1 - discharge)**exponent - 1) / (0.55**exponent - 1)
+
+
+def pries_discharge(diameter, tube):
+    """Discharge hematocrit for one in the tube (Pries et al. 1990)."""
+    x = 1 + 1.7 * np.exp(-0.415 * diameter) - 0.6 * np.exp(-0.011 * diameter)
+    half = x / (2 * (1 - x))
+    return np.sqrt(half**2 + tube / (1 - x)) - half
+
+
+def read_history(path):
+    """Columns by name of a fix ave/time table of a run that may still be going on."""
+    lines = path.read_text(encoding="utf-8").rpartition("\n")[0].splitlines()
+    names = lines[1].lstrip("# ").split()
+    return dict(zip(names, np.array([line.split() for line in lines[2:]], dtype=float).T))
+
+
+def cell_free_layer(points, axis, diameter, length, views=12, slice_length=0.5):
+    """Distance from the wall of the cells' silhouette, seen from the side; mean over views and slices along the axis."""
+    slices = max(1, round(length / slice_length))
+    slice_of = np.floor(points[:, 0] / length * slices).astype(int) % slices
+    gaps = []
+    for angle in np.arange(views) * 2 * np.pi / views:
+        edge = np.full(slices, -np.inf)
+        np.maximum.at(edge, slice_of, (points[:, 1:] - axis) @ (np.cos(angle), np.sin(angle)))
+        gaps.append(diameter / 2 - edge[np.isfinite(edge)].mean())
+    return np.mean(gaps)
+
+
+def layers(folder, diameter, length, dx=0.6):
+    """Times and cell-free layers of all surfaces written."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+    axis = dx * np.ceil(diameter / dx + 6) / 2
+    rows = []
+    for _, name in surfaces(folder):
+        reader = vtkXMLPolyDataReader()
+        reader.SetFileName(name)
+        reader.Update()
+        cells = reader.GetOutput()
+        points = vtk_to_numpy(cells.GetPoints().GetData()).astype(float)
+        corners = points[vtk_to_numpy(cells.GetPolys().GetConnectivityArray()).reshape(-1, 3)]
+        time = cells.GetFieldData().GetArray("TimeValue").GetValue(0)
+        rows.append((time, cell_free_layer(np.concatenate([points, corners.mean(axis=1)]), axis, diameter, length)))
+    return np.array(rows).T
+
+
+def measure(folder, diameter, tube, length, plasma):
+    """Histories over U t / D, and means over the last third and the third before it."""
+    history, cells = read_history(folder / "tube.dat"), read_ave_time(folder / "cell.dat")
+    turned = history["v_time"] * RATE
+    volumes = cells.column(6)
+    real_tube = volumes[0].sum() / (np.pi / 4 * diameter**2 * length)
+    viscosity = history["v_relative"] / plasma
+    ratio = history["v_mean"] / history["v_u_cells"]
+    time, layer = layers(folder, diameter, length)
+    case = {"turned": turned, "viscosity": viscosity, "ratio": ratio, "layer": (time * RATE, layer)}
+    thirds = {"last": turned > 2 / 3 * turned[-1], "before": abs(turned / turned[-1] - 0.5) < 1 / 6}
+    row = {"diameter": diameter, "cells": volumes.shape[1], "turns": turned[-1], "tube": real_tube}
+    for name, chosen in thirds.items():
+        row[f"viscosity_{name}"] = viscosity[chosen].mean()
+        row[f"ratio_{name}"] = ratio[chosen].mean()
+        row[f"layer_{name}"] = np.interp(turned[chosen], time * RATE, layer).mean()
+    row["discharge"] = real_tube / row["ratio_last"]
+    row["pries_discharge"] = pries_discharge(diameter, real_tube)
+    row["pries_ratio"] = real_tube / row["pries_discharge"]
+    row["pries_viscosity"] = pries_viscosity(diameter, row["pries_discharge"])
+    row["pries_viscosity_at_discharge"] = pries_viscosity(diameter, row["discharge"])
+    row["least_gap"] = history["v_layer"].min()
+    row["volume"] = abs(volumes / volumes[0] - 1).max()
+    return case, row
+
+
+def draw(cases, rows, pictures, path):
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    figure = plt.figure(figsize=(13, 8), layout="constrained")
+    grid = figure.add_gridspec(2, 6, height_ratios=(4, 3))
+    panels = [figure.add_subplot(grid[0, 2 * n:2 * n + 2]) for n in range(3)]
+    for (name, case), color in zip(cases.items(), COLORS):
+        row = rows[name]
+        label = f"{row['diameter']:g} µm, {100 * row['tube']:.0f} % in the tube"
+        for panel, series, reference in zip(panels, ("viscosity", "ratio", "layer"), ("pries_viscosity", "pries_ratio", None)):
+            x, y = case[series] if series == "layer" else (case["turned"], case[series])
+            panel.plot(x, y, color=color, label=label)
+            if reference:
+                panel.axhline(row[reference], color=color, ls="--", lw=1)
+    panels[0].set(ylabel="viscosity over that of plasma", ylim=(1, None))
+    panels[1].set(ylabel="tube over discharge hematocrit", ylim=(None, 1))
+    panels[2].set(ylabel="cell-free layer / µm", ylim=(0, None))
+    panels[0].plot([], [], "k--", lw=1, label="Pries et al., same tube hematocrit")
+    for panel in panels:
+        panel.set(xlabel="time × mean velocity / diameter", xlim=(0, None))
+    panels[0].legend(frameon=False, fontsize=8)
+    for n, (name, picture) in enumerate(pictures.items()):
+        panel = figure.add_subplot(grid[1, 6 // len(pictures) * n:6 // len(pictures) * (n + 1)])
+        panel.imshow(plt.imread(picture))
+        panel.set_title(f"{rows[name]['diameter']:g} µm, {100 * rows[name]['tube']:.0f} %, at the end", fontsize=9)
+        panel.axis("off")
+    figure.savefig(path, dpi=90)
+
+
+def write(rows, path):
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["case", *next(iter(rows.values()))])
+        for name, row in rows.items():
+            writer.writerow([name, *(f"{value:.4g}" for value in row.values())])
+
+
+def run(arguments, folder, variables):
+    """Runs the case unless its folder is there; false if it was not asked for."""
+    if (folder / "log.lammps").exists():
+        return True
+    if not example_study.wanted(arguments, folder.name):
+        return False
+    folder.mkdir(parents=True, exist_ok=True)
+    command = [arguments.lmp, "-in", HERE / "in.fahraeus", "-var", "templates", example_study.POTENTIALS]
+    for name, value in variables.items():
+        command += ["-var", name, str(value)]
+    if arguments.ranks > 1:
+        command = ["mpirun", "-np", str(arguments.ranks), *command]
+    subprocess.run(command, cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    return True
+
+
+def plasma(arguments, diameter):
+    """Force density of plasma over that of Poiseuille's law, in the same tube of atoms."""
+    folder = arguments.folder / f"d{diameter}h0"
+    arguments.only = arguments.only and [*arguments.only, folder.name]
+    run(arguments, folder, {"diameter": diameter, "hematocrit": 0})
+    lines = [line.split() for line in (folder / "log.lammps").read_text(encoding="utf-8").splitlines()]
+    start = next(n for n, words in enumerate(lines) if words[:1] == ["Step"])
+    return float(lines[start + 1][lines[start].index("v_relative")])
+
+
+def main():
+    parser = example_study.options(__doc__)
+    parser.add_argument("--folder", type=Path, default=HERE / "runs", help="of the runs")
+    arguments = parser.parse_args()
+    cases, rows, pictures = {}, {}, {}
+    for name, (diameter, tube, others) in CASES.items():
+        folder = arguments.folder / name
+        if not run(arguments, folder, {"diameter": diameter, "hematocrit": tube, **others}):
+            continue
+        length = others.get("length", 10.8)
+        cases[name], rows[name] = measure(folder, diameter, tube, length, plasma(arguments, diameter))
+        print(name, {key: float(f"{value:.4g}") for key, value in rows[name].items()}, flush=True)
+        pictures[name] = folder / "last.png"
+        subprocess.run([HERE.parents[1] / "scripts" / "render_cells.py", surfaces(folder)[-1][1], "-o", pictures[name],
+                        "--color", "molecule", "--view", "60", "15", "--size", "640x480"], check=True)
+    write(rows, HERE / "fahraeus.csv")
+    draw(cases, rows, pictures, HERE / "fahraeus.png")
+
+
+if __name__ == "__main__":
+    main()
