@@ -1,0 +1,177 @@
+#!/usr/bin/python3
+"""Turning of a cell near the wall of a tube and of one near its axis, as Figure 5 of the paper, and a picture as Figure 4.
+
+Runs in.tube-poiseuille in a folder, unless it is there, and writes tube-poiseuille.csv (a row per cell) and
+tube-poiseuille.png.
+
+  study.py --folder run [--lmp ../../build/lmp_rbc]
+"""
+import csv
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "scripts"))
+import example_study  # noqa: E402
+from read_ave_time import read_ave_time  # noqa: E402
+from snapshots import surfaces  # noqa: E402
+
+RADIUS, DX, SPEED = 11.25, 0.6, 187.5e-6      # of in.tube-poiseuille
+DISC = 7.82                                   # diameter D of a cell at rest, um
+WALL, AXIS = "#2a6fb0", "#3d9141"             # the paper's colors of the two cells
+START = 2.0                                   # time * mean velocity / D from which means are taken
+
+
+class Cells:
+    """Histories [frame, cell] of a run: time, distance from the axis, deformation, velocity, angles."""
+
+    def __init__(self, folder):
+        table = np.loadtxt((folder / "tube.dat").read_text(encoding="utf-8").rpartition("\n")[0].splitlines())
+        history = read_ave_time(folder / "cell.dat")
+        frames = min(len(table), len(history.steps))
+        self.time, self.relative, self.gap = table[:frames, 1] * 1e-3, table[:frames, 3], table[:frames, 4]
+        axis = DX * np.ceil(2 * RADIUS / DX + 7) / 2
+        across = history.columns(3, 4)[:frames] - axis
+        self.r = np.linalg.norm(across, axis=2)
+        self.volume, self.deformation = history.column(6)[:frames], history.column(7)[:frames]
+        self.length = 2 * history.column(8)[:frames]
+        self.velocity = history.column(17)[:frames]
+        long, short = history.columns(11, 13)[:frames], history.columns(14, 16)[:frames]
+        self.long_angle = np.degrees(np.arccos(np.minimum(abs(long[..., 0]), 1)))
+        short = with_sense(short)
+        self.short_angle = np.degrees(np.arccos(np.clip(short[..., 0], -1, 1)))
+        self.turned = in_plane_angle(short, across / self.r[..., None])
+
+    @property
+    def periods(self):
+        """Time in units of D over the mean velocity."""
+        return self.time * 1e3 * SPEED / DISC
+
+
+def with_sense(axes):
+    """The axes [frame, cell] with the sense that each had in the frame before: an axis alone has none."""
+    flips = np.where(np.einsum("tci,tci->tc", axes[1:], axes[:-1]) < 0, -1, 1)
+    return np.concatenate([axes[:1], axes[1:] * np.cumprod(flips, axis=0)[..., None]])
+
+
+def in_plane_angle(short, outward):
+    """Angle, continuous in time, by which a disc is turned in the plane of axis and radius; 0 where it lies along the wall."""
+    radial = np.einsum("tci,tci->tc", short[..., 1:], outward)
+    return np.degrees(np.unwrap(np.arctan2(short[..., 0], radial), axis=0))
+
+
+def measure(cells):
+    """A row per cell, and the cells that are nearest to the wall and to the axis on average."""
+    late = cells.periods >= min(START, cells.periods[-1] / 2)
+    span = cells.time[late][-1] - cells.time[late][0]
+    rows = []
+    for n in range(cells.r.shape[1]):
+        half_turns = (cells.turned[late][-1, n] - cells.turned[late][0, n]) / 180
+        rows.append({"cell": n + 1, "radius": cells.r[late, n].mean(), "velocity": 1e6 * cells.velocity[late, n].mean(),
+                     "length": cells.length[late, n].mean(), "longest": cells.length[late, n].max(),
+                     "deformation": cells.deformation[late, n].mean(), "half_turns_per_s": 1e3 * half_turns / span,
+                     "angle_mean": cells.long_angle[late, n].mean(), "angle_sd": cells.long_angle[late, n].std()})
+    mean_radius = np.array([row["radius"] for row in rows])
+    return rows, int(mean_radius.argmax()), int(mean_radius.argmin())
+
+
+def snapshot(surface, wall, axis, path):
+    """The cells seen from the side, flow to the right; the two cells in their colors, the others pale."""
+    import matplotlib.colors
+    from render_cells import (add_renderer, aim, ambient_occlusion, display, light, outline_actor, read_surface, refine, save,
+                              surface_actor, vtkRenderWindow)
+    from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+    cells = refine(read_surface(str(surface)), 1)
+    molecules = np.round(vtk_to_numpy(cells.GetPointData().GetArray("molecule"))).astype(int)
+    colors = np.tile(np.uint8([222, 120, 110]), (len(molecules), 1))
+    for number, color in ((wall + 1, WALL), (axis + 1, AXIS)):
+        colors[molecules == number] = np.round(255 * np.array(matplotlib.colors.to_rgb(color)))
+    scalars = numpy_to_vtk(colors, deep=True)
+    cells.GetPointData().SetScalars(scalars)
+    actor, _ = surface_actor(cells, None, None)
+    actor.GetMapper().ScalarVisibilityOn()
+    bounds = np.array(cells.GetBounds())
+    with display():
+        window = vtkRenderWindow()
+        window.SetOffScreenRendering(1)
+        window.SetMultiSamples(0)
+        window.SetSize(1800, 1300)
+        renderer = add_renderer(window, 0, 1)
+        renderer.AddActor(actor)
+        light(renderer)
+        aim(renderer, bounds, 15, 20, False, 1.0)
+        ambient_occlusion(renderer, bounds)
+        window.Render()
+        save(window, str(path))
+        window.Finalize()
+
+
+def draw(cells, rows, wall, axis, picture, path):
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    figure, panels = plt.subplot_mosaic([["angle", "picture"], ["turned", "radial"]], figsize=(12.5, 8), layout="constrained")
+    for n, color, name in ((wall, WALL, "near the wall"), (axis, AXIS, "near the axis")):
+        label = f"{name}, r = {rows[n]['radius']:.1f} µm"
+        panels["angle"].plot(cells.periods, cells.short_angle[:, n], color=color, label=label)
+    panels["angle"].set(ylabel="normal of the disc to the tube's axis (degrees)", ylim=(0, 180), yticks=range(0, 181, 30))
+    outermost = sorted(range(len(rows)), key=lambda n: -rows[n]["radius"])[:4]
+    for n, color in zip(outermost, (WALL, "#e07b39", "#8e5ea2", "0.5")):
+        panels["turned"].plot(cells.periods, cells.turned[:, n] - cells.turned[0, n], color=color, label=f"r = {rows[n]['radius']:.1f} µm")
+    panels["turned"].set(ylabel="turned in the plane of axis and radius (degrees)")
+    for name in ("angle", "turned"):
+        panels[name].set(xlabel="time × mean velocity / D", xlim=(0, cells.periods[-1]))
+        panels[name].legend(frameon=False, fontsize=8)
+    panels["picture"].imshow(plt.imread(picture))
+    panels["picture"].axis("off")
+    panels["picture"].set_title("blue: near the wall, green: near the axis", fontsize=10)
+    radius = np.array([row["radius"] for row in rows])
+    panel = panels["radial"]
+    panel.plot(radius, [row["velocity"] for row in rows], "o", color="#b3202a", label="velocity")
+    fine = np.linspace(0, RADIUS, 100)
+    panel.plot(fine, 2e6 * SPEED * (1 - (fine / RADIUS)**2), color="0.6", lw=1, label="plasma alone")
+    panel.set(xlabel="distance of the centre from the axis / µm", ylabel="velocity of a cell / (µm/s)", ylim=(0, None), xlim=(0, RADIUS))
+    right = panel.twinx()
+    right.plot(radius, [row["length"] for row in rows], "s", mfc="none", color="k", label="length")
+    right.set(ylabel="length of a cell / µm")
+    panel.legend(*(sum(pair, []) for pair in zip(panel.get_legend_handles_labels(), right.get_legend_handles_labels())),
+                 frameon=False, fontsize=8, loc="lower left")
+    figure.savefig(path, dpi=85)
+
+
+def write(rows, path):
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(rows[0])
+        writer.writerows([f"{value:.4g}" for value in row.values()] for row in rows)
+
+
+def main():
+    parser = example_study.options(__doc__)
+    parser.add_argument("--folder", type=Path, default=HERE / "run", help="of the run")
+    arguments = parser.parse_args()
+    folder = arguments.folder
+    if not (folder / "log.lammps").exists():
+        folder.mkdir(parents=True, exist_ok=True)
+        command = [arguments.lmp, "-in", HERE / "in.tube-poiseuille", "-var", "templates", example_study.POTENTIALS]
+        if arguments.ranks > 1:
+            command = ["mpirun", "-np", str(arguments.ranks), *command]
+        subprocess.run(command, cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    cells = Cells(folder)
+    rows, wall, axis = measure(cells)
+    for row in rows:
+        print({key: float(f"{value:.4g}") for key, value in row.items()})
+    late = cells.periods >= min(START, cells.periods[-1] / 2)
+    print(f"until {cells.time[-1]:.0f} ms; viscosity over that of plasma {cells.relative[late].mean():.3f}; nearest vertex to the "
+          f"wall {cells.gap.min():.3f} um; volumes within {abs(cells.volume / cells.volume[0] - 1).max():.1e}")
+    write(rows, HERE / "tube-poiseuille.csv")
+    picture = folder / "last.png"
+    snapshot(surfaces(folder)[-1][1], wall, axis, picture)
+    draw(cells, rows, wall, axis, picture, HERE / "tube-poiseuille.png")
+
+
+if __name__ == "__main__":
+    main()
