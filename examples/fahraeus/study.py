@@ -4,7 +4,7 @@
 Runs in.fahraeus in a folder for each case, and once without cells, writes fahraeus.csv and draws fahraeus.png. Cases of
 which the folder is there already are not run again.
 
-  study.py --folder runs [--lmp ../../build/lmp_rbc] [--only d20h30 d20h45 d10h30]
+  study.py --folder runs [--lmp ../../build/lmp_rbc] [--only d20h30 d10h30]
 """
 import csv
 import subprocess
@@ -19,13 +19,14 @@ import example_study  # noqa: E402
 from read_ave_time import read_ave_time  # noqa: E402
 from snapshots import surfaces  # noqa: E402
 
-CASES = {    # diameter and hematocrit in the tube, and what differs from in.fahraeus
-    "d20h30": (20, 0.3, {}),
-    "d20h45": (20, 0.45, {}),
-    "d10h30": (10, 0.3, {"length": 19.2}),
+CASES = {    # variables of in.fahraeus
+    "d20h30": {"diameter": 20, "hematocrit": 0.3, "length": 10.8, "dx": 0.6, "turns": 30},
+    "d20h30long": {"diameter": 20, "hematocrit": 0.3, "length": 21.6, "dx": 0.6, "turns": 12},
+    "d20h45": {"diameter": 20, "hematocrit": 0.45, "length": 10.5, "dx": 0.5, "turns": 12},
+    "d10h30": {"diameter": 10, "hematocrit": 0.3, "length": 16, "dx": 0.5, "turns": 15},
 }
 RATE = 50e-6             # mean velocity over diameter, 1/us
-COLORS = "#b3202a", "#2a6fb0", "#4b8b3b"
+COLORS = "#b3202a", "#e8a13a", "#2a6fb0", "#4b8b3b"
 
 
 def pries_viscosity(diameter, discharge):
@@ -62,7 +63,7 @@ def cell_free_layer(points, axis, diameter, length, views=12, slice_length=0.5):
     return np.mean(gaps)
 
 
-def layers(folder, diameter, length, dx=0.6):
+def layers(folder, diameter, length, dx):
     """Times and cell-free layers of all surfaces written."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
@@ -80,7 +81,7 @@ def layers(folder, diameter, length, dx=0.6):
     return np.array(rows).T
 
 
-def measure(folder, diameter, tube, length, plasma):
+def measure(folder, plasma, diameter=20, length=10.8, dx=0.6, **_):
     """Histories over U t / D, and means over the last third and the third before it."""
     history, cells = read_history(folder / "tube.dat"), read_ave_time(folder / "cell.dat")
     turned = history["v_time"] * RATE
@@ -88,10 +89,10 @@ def measure(folder, diameter, tube, length, plasma):
     real_tube = volumes[0].sum() / (np.pi / 4 * diameter**2 * length)
     viscosity = history["v_relative"] / plasma
     ratio = history["v_mean"] / history["v_u_cells"]
-    time, layer = layers(folder, diameter, length)
+    time, layer = layers(folder, diameter, length, dx)
     case = {"turned": turned, "viscosity": viscosity, "ratio": ratio, "layer": (time * RATE, layer)}
     thirds = {"last": turned > 2 / 3 * turned[-1], "before": abs(turned / turned[-1] - 0.5) < 1 / 6}
-    row = {"diameter": diameter, "cells": volumes.shape[1], "turns": turned[-1], "tube": real_tube}
+    row = {"diameter": diameter, "length": length, "dx": dx, "cells": volumes.shape[1], "turns": turned[-1], "tube": real_tube}
     for name, chosen in thirds.items():
         row[f"viscosity_{name}"] = viscosity[chosen].mean()
         row[f"ratio_{name}"] = ratio[chosen].mean()
@@ -115,7 +116,7 @@ def draw(cases, rows, pictures, path):
     panels = [figure.add_subplot(grid[0, 2 * n:2 * n + 2]) for n in range(3)]
     for (name, case), color in zip(cases.items(), COLORS):
         row = rows[name]
-        label = f"{row['diameter']:g} µm, {100 * row['tube']:.0f} % in the tube"
+        label = f"{row['diameter']:g} µm, {100 * row['tube']:.0f} % in the tube, {row['length']:g} µm long"
         for panel, series, reference in zip(panels, ("viscosity", "ratio", "layer"), ("pries_viscosity", "pries_ratio", None)):
             x, y = case[series] if series == "layer" else (case["turned"], case[series])
             panel.plot(x, y, color=color, label=label)
@@ -160,11 +161,11 @@ def run(arguments, folder, variables):
     return True
 
 
-def plasma(arguments, diameter):
+def plasma(arguments, variables):
     """Force density of plasma over that of Poiseuille's law, in the same tube of atoms."""
-    folder = arguments.folder / f"d{diameter}h0"
+    folder = arguments.folder / f"plasma-d{variables['diameter']}-dx{variables['dx']}"
     arguments.only = arguments.only and [*arguments.only, folder.name]
-    run(arguments, folder, {"diameter": diameter, "hematocrit": 0})
+    run(arguments, folder, {**variables, "hematocrit": 0})
     lines = [line.split() for line in (folder / "log.lammps").read_text(encoding="utf-8").splitlines()]
     start = next(n for n, words in enumerate(lines) if words[:1] == ["Step"])
     return float(lines[start + 1][lines[start].index("v_relative")])
@@ -175,12 +176,11 @@ def main():
     parser.add_argument("--folder", type=Path, default=HERE / "runs", help="of the runs")
     arguments = parser.parse_args()
     cases, rows, pictures = {}, {}, {}
-    for name, (diameter, tube, others) in CASES.items():
+    for name, variables in CASES.items():
         folder = arguments.folder / name
-        if not run(arguments, folder, {"diameter": diameter, "hematocrit": tube, **others}):
+        if not run(arguments, folder, variables):
             continue
-        length = others.get("length", 10.8)
-        cases[name], rows[name] = measure(folder, diameter, tube, length, plasma(arguments, diameter))
+        cases[name], rows[name] = measure(folder, plasma(arguments, variables), **variables)
         print(name, {key: float(f"{value:.4g}") for key, value in rows[name].items()}, flush=True)
         pictures[name] = folder / "last.png"
         subprocess.run([HERE.parents[1] / "scripts" / "render_cells.py", surfaces(folder)[-1][1], "-o", pictures[name],

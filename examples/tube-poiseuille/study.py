@@ -18,6 +18,7 @@ sys.path.insert(0, str(HERE.parents[1] / "scripts"))
 import example_study  # noqa: E402
 from read_ave_time import read_ave_time  # noqa: E402
 from snapshots import surfaces  # noqa: E402
+from surface_gaps import read_cells  # noqa: E402
 
 RADIUS, DX, SPEED = 11.25, 0.6, 187.5e-6      # of in.tube-poiseuille
 DISC = 7.82                                   # diameter D of a cell at rest, um
@@ -32,6 +33,7 @@ class Cells:
         table = np.loadtxt((folder / "tube.dat").read_text(encoding="utf-8").rpartition("\n")[0].splitlines())
         history = read_ave_time(folder / "cell.dat")
         frames = min(len(table), len(history.steps))
+        self.steps = history.steps[:frames]
         self.time, self.relative, self.gap = table[:frames, 1] * 1e-3, table[:frames, 3], table[:frames, 4]
         axis = DX * np.ceil(2 * RADIUS / DX + 7) / 2
         across = history.columns(3, 4)[:frames] - axis
@@ -41,7 +43,7 @@ class Cells:
         self.velocity = history.column(17)[:frames]
         long, short = history.columns(11, 13)[:frames], history.columns(14, 16)[:frames]
         self.long_angle = np.degrees(np.arccos(np.minimum(abs(long[..., 0]), 1)))
-        short = with_sense(short)
+        self.short = short = with_sense(short)
         self.short_angle = np.degrees(np.arccos(np.clip(short[..., 0], -1, 1)))
         self.turned = in_plane_angle(short, across / self.r[..., None])
 
@@ -63,8 +65,29 @@ def in_plane_angle(short, outward):
     return np.degrees(np.unwrap(np.arctan2(short[..., 0], radial), axis=0))
 
 
-def measure(cells):
-    """A row per cell, and the cells that are nearest to the wall and to the axis on average."""
+def membrane_angles(cells, folder):
+    """Angles [file, cell] between the disc's normal and the line from the middle of the membrane's one half to that of the other.
+
+    The halves are those on either side of the disc at rest. 0 as long as the cell turns as a rigid body, up to 90 where the
+    membrane runs around it.
+    """
+    sides, angles = None, []
+    for step, name in surfaces(folder):
+        frame = np.flatnonzero(cells.steps == step)
+        if frame.size == 0:
+            continue
+        centred = [points - points.mean(axis=0) for points, _ in read_cells(name)]
+        normals = cells.short[frame[0]]
+        if sides is None:
+            sides = [np.sign(points @ normal) for points, normal in zip(centred, normals)]
+        lines = np.array([side @ points for side, points in zip(sides, centred)])
+        lines /= np.linalg.norm(lines, axis=1)[:, None]
+        angles.append(np.degrees(np.arccos(np.minimum(abs(np.einsum("ci,ci->c", lines, normals)), 1))))
+    return np.array(angles)
+
+
+def measure(cells, membrane):
+    """A row per cell, and the the cells nearest to the wall and to the axis on average."""
     late = cells.periods >= min(START, cells.periods[-1] / 2)
     span = cells.time[late][-1] - cells.time[late][0]
     rows = []
@@ -73,7 +96,8 @@ def measure(cells):
         rows.append({"cell": n + 1, "radius": cells.r[late, n].mean(), "velocity": 1e6 * cells.velocity[late, n].mean(),
                      "length": cells.length[late, n].mean(), "longest": cells.length[late, n].max(),
                      "deformation": cells.deformation[late, n].mean(), "half_turns_per_s": 1e3 * half_turns / span,
-                     "angle_mean": cells.long_angle[late, n].mean(), "angle_sd": cells.long_angle[late, n].std()})
+                     "angle_mean": cells.long_angle[late, n].mean(), "angle_sd": cells.long_angle[late, n].std(),
+                     "membrane_angle": membrane[:, n].max()})
     mean_radius = np.array([row["radius"] for row in rows])
     return rows, int(mean_radius.argmax()), int(mean_radius.argmin())
 
@@ -161,7 +185,7 @@ def main():
             command = ["mpirun", "-np", str(arguments.ranks), *command]
         subprocess.run(command, cwd=folder, check=True, stdout=subprocess.DEVNULL)
     cells = Cells(folder)
-    rows, wall, axis = measure(cells)
+    rows, wall, axis = measure(cells, membrane_angles(cells, folder))
     for row in rows:
         print({key: float(f"{value:.4g}") for key, value in row.items()})
     late = cells.periods >= min(START, cells.periods[-1] / 2)

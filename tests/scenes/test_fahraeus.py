@@ -26,7 +26,7 @@ class Fahraeus(unittest.TestCase):
         turns = 0.4
         result = run_example("fahraeus", diameter=9, length=9.6, hematocrit=0.16, turns=turns, every=10, frames=20)
         plasma = run_example("fahraeus", diameter=9, length=9.6, hematocrit=0).thermo["v_relative"][-1]
-        case, row = STUDY.measure(result.folder, 9, 0.16, 9.6, plasma)
+        case, row = STUDY.measure(result.folder, plasma, diameter=9, length=9.6)
         self.assertEqual(row["cells"], 1)
         self.assertGreater(row["turns"], 0.9 * turns)
         self.assertLess(row["volume"], 1e-4)
