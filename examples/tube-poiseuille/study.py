@@ -60,13 +60,13 @@ def with_sense(axes):
 
 
 def in_plane_angle(short, outward):
-    """Angle, continuous in time, by which a disc is turned in the plane of axis and radius; 0 where it lies along the wall."""
+    """Angle, continuous in time, by which a disc is turned in the plane of axis and radius; 0 along the wall."""
     radial = np.einsum("tci,tci->tc", short[..., 1:], outward)
     return np.degrees(np.unwrap(np.arctan2(short[..., 0], radial), axis=0))
 
 
 def membrane_angles(cells, folder):
-    """Angles [file, cell] between the disc's normal and the line from the middle of the membrane's one half to that of the other.
+    """Angles [file, cell] between the disc's normal and the line from one half of the membrane to the other.
 
     The halves are those on either side of the disc at rest. 0 as long as the cell turns as a rigid body, up to 90 where the
     membrane runs around it.
@@ -137,14 +137,16 @@ def draw(cells, rows, wall, axis, picture, path):
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
-    figure, panels = plt.subplot_mosaic([["angle", "picture"], ["turned", "radial"]], figsize=(12.5, 8), layout="constrained")
+    figure, panels = plt.subplot_mosaic([["angle", "picture"], ["turned", "radial"]], figsize=(12.5, 8),
+                                        layout="constrained")
     for n, color, name in ((wall, WALL, "near the wall"), (axis, AXIS, "near the axis")):
         label = f"{name}, r = {rows[n]['radius']:.1f} µm"
         panels["angle"].plot(cells.periods, cells.short_angle[:, n], color=color, label=label)
     panels["angle"].set(ylabel="normal of the disc to the tube's axis (degrees)", ylim=(0, 180), yticks=range(0, 181, 30))
     outermost = sorted(range(len(rows)), key=lambda n: -rows[n]["radius"])[:4]
     for n, color in zip(outermost, (WALL, "#e07b39", "#8e5ea2", "0.5")):
-        panels["turned"].plot(cells.periods, cells.turned[:, n] - cells.turned[0, n], color=color, label=f"r = {rows[n]['radius']:.1f} µm")
+        panels["turned"].plot(cells.periods, cells.turned[:, n] - cells.turned[0, n], color=color,
+                              label=f"r = {rows[n]['radius']:.1f} µm")
     panels["turned"].set(ylabel="turned in the plane of axis and radius (degrees)")
     for name in ("angle", "turned"):
         panels[name].set(xlabel="time × mean velocity / D", xlim=(0, cells.periods[-1]))
@@ -157,7 +159,8 @@ def draw(cells, rows, wall, axis, picture, path):
     panel.plot(radius, [row["velocity"] for row in rows], "o", color="#b3202a", label="velocity")
     fine = np.linspace(0, RADIUS, 100)
     panel.plot(fine, 2e6 * SPEED * (1 - (fine / RADIUS)**2), color="0.6", lw=1, label="plasma alone")
-    panel.set(xlabel="distance of the centre from the axis / µm", ylabel="velocity of a cell / (µm/s)", ylim=(0, None), xlim=(0, RADIUS))
+    panel.set(xlabel="distance of the centre from the axis / µm", ylabel="velocity of a cell / (µm/s)", ylim=(0, None),
+              xlim=(0, RADIUS))
     right = panel.twinx()
     right.plot(radius, [row["length"] for row in rows], "s", mfc="none", color="k", label="length")
     right.set(ylabel="length of a cell / µm")
