@@ -21,12 +21,14 @@ from snapshots import surfaces  # noqa: E402
 
 CASES = {    # variables of in.fahraeus
     "d20h30": {"diameter": 20, "hematocrit": 0.3, "length": 10.8, "dx": 0.6, "turns": 30},
+    "d20h30fine": {"diameter": 20, "hematocrit": 0.3, "length": 10.5, "dx": 0.5, "turns": 12},
     "d20h30long": {"diameter": 20, "hematocrit": 0.3, "length": 21.6, "dx": 0.6, "turns": 12},
     "d20h45": {"diameter": 20, "hematocrit": 0.45, "length": 10.5, "dx": 0.5, "turns": 12},
     "d10h30": {"diameter": 10, "hematocrit": 0.3, "length": 16, "dx": 0.5, "turns": 15},
 }
 RATE = 50e-6             # mean velocity over diameter, 1/us
-COLORS = "#b3202a", "#e8a13a", "#2a6fb0", "#4b8b3b"
+COLORS = {"d20h30": "#b3202a", "d20h30fine": "#e8813a", "d20h30long": "#7d3c98", "d20h45": "#2a6fb0", "d10h30": "#4b8b3b"}
+PICTURES = "d20h30", "d20h45", "d10h30"
 
 
 def pries_viscosity(diameter, discharge):
@@ -97,6 +99,7 @@ def measure(folder, plasma, diameter=20, length=10.8, dx=0.6, **_):
         row[f"viscosity_{name}"] = viscosity[chosen].mean()
         row[f"ratio_{name}"] = ratio[chosen].mean()
         row[f"layer_{name}"] = np.interp(turned[chosen], time * RATE, layer).mean()
+    row["solid_layer"] = diameter / 2 * (1 - (1 - 1 / row["viscosity_last"])**0.25)    # of a solid core, same viscosity
     row["discharge"] = real_tube / row["ratio_last"]
     row["pries_discharge"] = pries_discharge(diameter, real_tube)
     row["pries_ratio"] = real_tube / row["pries_discharge"]
@@ -114,13 +117,13 @@ def draw(cases, rows, pictures, path):
     figure = plt.figure(figsize=(13, 8), layout="constrained")
     grid = figure.add_gridspec(2, 6, height_ratios=(4, 3))
     panels = [figure.add_subplot(grid[0, 2 * n:2 * n + 2]) for n in range(3)]
-    for (name, case), color in zip(cases.items(), COLORS):
-        row = rows[name]
-        label = f"{row['diameter']:g} µm, {100 * row['tube']:.0f} % in the tube, {row['length']:g} µm long"
+    for name, case in cases.items():
+        row, color = rows[name], COLORS[name]
+        label = f"{row['diameter']:g} µm, {100 * row['tube']:.0f} %, period {row['length']:g} µm, dx {row['dx']:g} µm"
         for panel, series, reference in zip(panels, ("viscosity", "ratio", "layer"), ("pries_viscosity", "pries_ratio", None)):
             x, y = case[series] if series == "layer" else (case["turned"], case[series])
             panel.plot(x, y, color=color, label=label)
-            if reference:
+            if reference and name in PICTURES:
                 panel.axhline(row[reference], color=color, ls="--", lw=1)
     panels[0].set(ylabel="viscosity over that of plasma", ylim=(1, None))
     panels[1].set(ylabel="tube over discharge hematocrit", ylim=(None, 1))
@@ -182,6 +185,8 @@ def main():
             continue
         cases[name], rows[name] = measure(folder, plasma(arguments, variables), **variables)
         print(name, {key: float(f"{value:.4g}") for key, value in rows[name].items()}, flush=True)
+        if name not in PICTURES:
+            continue
         pictures[name] = folder / "last.png"
         subprocess.run([HERE.parents[1] / "scripts" / "render_cells.py", surfaces(folder)[-1][1], "-o", pictures[name],
                         "--color", "molecule", "--view", "60", "15", "--size", "640x480"], check=True)
