@@ -22,13 +22,13 @@ from snapshots import surfaces  # noqa: E402
 CASES = {    # variables of in.fahraeus
     "d20h30": {"diameter": 20, "hematocrit": 0.3, "length": 10.8, "dx": 0.6, "turns": 30},
     "d20h30fine": {"diameter": 20, "hematocrit": 0.3, "length": 10.5, "dx": 0.5, "turns": 12},
-    "d20h30long": {"diameter": 20, "hematocrit": 0.3, "length": 21.6, "dx": 0.6, "turns": 9},
+    "d20h30finest": {"diameter": 20, "hematocrit": 0.3, "length": 10.5, "dx": 0.35, "shape": "rbc_2562", "turns": 6},
     "d20h45": {"diameter": 20, "hematocrit": 0.45, "length": 10.5, "dx": 0.5, "turns": 12},
     "d10h30": {"diameter": 10, "hematocrit": 0.3, "length": 16, "dx": 0.5, "turns": 15},
     "d10h30fine": {"diameter": 10, "hematocrit": 0.3, "length": 16, "dx": 0.3, "shape": "rbc_2562", "turns": 6},
 }
 RATE = 50e-6             # mean velocity over diameter, 1/us
-COLORS = {"d20h30": "#b3202a", "d20h30fine": "#e8813a", "d20h30long": "#7d3c98", "d20h45": "#2a6fb0", "d10h30": "#4b8b3b",
+COLORS = {"d20h30": "#b3202a", "d20h30fine": "#e8813a", "d20h30finest": "#7d3c98", "d20h45": "#2a6fb0", "d10h30": "#4b8b3b",
           "d10h30fine": "#111111"}
 PICTURES = "d20h30", "d20h45", "d10h30"
 
