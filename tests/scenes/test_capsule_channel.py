@@ -1,0 +1,55 @@
+"""A capsule in a tube on a coarse grid: nearly rigid it moves as a sphere does, softer it grows longer, thinner and faster."""
+
+import sys
+import unittest
+
+import numpy as np
+
+from lammps_case import ROOT, in_parallel
+from scene_case import run_example, study_of
+
+sys.path.insert(0, str(ROOT / "scripts"))
+from read_ave_time import read_table  # noqa: E402
+
+STUDY = study_of("capsule-channel")
+COARSE = dict(shape="capsule_642", length=5, cells=12)
+
+
+class CapsuleChannel(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.numbers = 0.001, 0.015, 0.05
+        stiff = {**COARSE, **STUDY.STIFF, "ratio": 0.75}
+        soft = [dict(COARSE, ratio=0.85, Ca=number, duration=2) for number in cls.numbers[1:]]
+        cases = [stiff, *soft]
+        cls.results = in_parallel(lambda variables, ranks: run_example("capsule-channel", ranks, **variables),
+                                  list(zip(cases, (1, 2, 1))))
+        cls.rows = [dict(zip(STUDY.COLUMNS, STUDY.measure(result.folder, variables)))
+                    for result, variables in zip(cls.results, cases)]
+
+    def test_stiff_limit(self):
+        # the kernel makes a membrane act up to half a cell of the fluid thicker
+        ratios, exact = np.array(list(STUDY.RIGID.items())).T
+        speed, ratio = self.rows[0]["U"], self.rows[0]["a/R"]
+        bounds = np.interp([ratio + 0.5 / COARSE["cells"], ratio], ratios, exact)
+        print(f"\nspeed {speed:.4f}, exact {bounds[1]:.4f}, of a sphere dx/2 larger {bounds[0]:.4f}")
+        self.assertLess(bounds[0], speed)
+        self.assertLess(speed, bounds[1])
+        self.assertLess(abs(self.rows[0]["length"] - 1), 5e-3)
+
+    def test_softer(self):
+        # Risso et al 2006: at fixed a/R the capsule is stretched axially as Ca rises
+        _, stiffer, softer = self.rows
+        for name, sign in (("length", 1), ("width", -1), ("U", 1)):
+            print(f"\n{name}: {stiffer[name]:.4f}, {softer[name]:.4f}")
+            self.assertGreater(sign * (softer[name] - stiffer[name]), 0.02)
+
+    def test_kept(self):
+        for result in self.results:
+            table = read_table(result.path("capsule.dat"))
+            self.assertLess(np.ptp(table["v_volume"]), 1e-4)
+            self.assertLess(table["v_axis"].max(), 2e-3)
+
+
+if __name__ == "__main__":
+    unittest.main()
