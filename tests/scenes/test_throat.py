@@ -1,0 +1,71 @@
+"""Cells in a short vessel with a throat and in a straight one: flow rates against closed forms, cells stay in and are counted."""
+
+import sys
+import unittest
+
+import numpy as np
+
+from lammps_case import ROOT, in_parallel
+from scene_case import run_example
+
+sys.path.insert(0, str(ROOT / "scripts"))
+from read_ave_time import read_table  # noqa: E402
+
+SMALL = dict(length=4, width=2, hematocrit=0.15, dx=0.8, gradient=1e5, rate=150, duration=0.012, every=1,
+             scripts=ROOT / "scripts")
+DIAMETER, VISCOSITY = 8, 1.4965
+CELL = 93.53    # um^3 of rbc_642
+
+
+def throat_radius(x, throat):
+    """As scripts/make_vessel.py makes it: straight for a fifteenth, tapers of two fifteenths on both sides."""
+    length, wide, narrow = SMALL["length"] * DIAMETER, SMALL["width"] * DIAMETER / 2, throat * DIAMETER / 2
+    along = np.clip((np.abs(x - length / 2) - length / 30) / (2 * length / 15), 0, 1)
+    return narrow + (wide - narrow) * (1 - np.cos(np.pi * along)) / 2
+
+
+def plasma_velocity(throat):
+    """Mean velocity (um/s) in all of the vessel, and its volume, were the flow that of Poiseuille in every section."""
+    length = SMALL["length"] * DIAMETER
+    x = (np.arange(4000) + 0.5) * length / 4000
+    radius = throat_radius(x, throat)
+    volume = np.pi * (radius**2).mean() * length
+    pressure = SMALL["gradient"] * 1e-9    # kPa/um
+    return np.pi * pressure / (8 * VISCOSITY * (radius**-4).mean()) * length / volume * 1e6, volume
+
+
+class Throat(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.throats = 2, 1.2    # diameters of a cell; the first is the straight tube
+        cls.results = in_parallel(lambda throat, ranks: run_example("throat", ranks, throat=throat, **SMALL),
+                                  list(zip(cls.throats, (1, 2))))
+        cls.tables = [read_table(result.path("blocks.dat")) for result in cls.results]
+
+    def test_flow_rate(self):
+        # at first cells are free of stress, and the flow is that of plasma
+        straight, throat = (table["v_u"][0] / plasma_velocity(width)[0] for table, width in zip(self.tables, self.throats))
+        print(f"\nvelocity over that of Poiseuille's law: straight {straight:.4f}, throat {throat:.4f}")
+        self.assertLess(abs(straight - 1), 0.05)    # a radius of 10 dx; 0.8 % at 20 dx
+        # the throat resists more than the sum of its sections, as flow has to turn
+        self.assertLess(throat, 1)
+        self.assertGreater(throat, 0.75)
+
+    def test_cells_are_counted_and_kept(self):
+        for result, table, width in zip(self.results, self.tables, self.throats):
+            cells = sum(table[f"v_block{n}"] for n in range(3))
+            self.assertEqual(set(cells), {round(SMALL["hematocrit"] * plasma_velocity(width)[1] / CELL)})
+            thermo = result.thermo
+            self.assertLess(thermo["c_r"].max(), 1)
+            self.assertLess(thermo["v_spread"].max(), 1e-3)
+            # cells are carried with the flow, on the whole
+            gone = (table["v_passed"][-1] - table["v_passed"][0]) * SMALL["length"] * DIAMETER
+            carried = np.trapezoid(table["v_u"], table["v_seconds"]) if hasattr(np, "trapezoid") else np.trapz(
+                table["v_u"], table["v_seconds"])
+            print(f"\ncells went {gone:.2f} um, the fluid {carried:.2f} um")
+            self.assertGreater(gone, 0.7 * carried)
+            self.assertLess(gone, 2 * carried)
+
+
+if __name__ == "__main__":
+    unittest.main()
