@@ -14,8 +14,9 @@ from pathlib import Path
 import numpy as np
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parents[1] / "scripts"))
-from example_study import options, run_cases, run_script  # noqa: E402
+sys.path[:0] = str(HERE.parents[1] / "scripts"), str(HERE.parents[1] / "potentials")
+from example_study import POTENTIALS, options, run_cases, run_script  # noqa: E402
+from molecule_file import read_molecule  # noqa: E402
 from read_ave_time import read_table  # noqa: E402
 
 COLUMNS = "a/R", "Ca", "cells", "time", "U", "length", "width", "pressure", "change"
@@ -25,7 +26,7 @@ SIZES = tuple(RIGID)
 NUMBERS = 0.005, 0.015, 0.03, 0.05, 0.1
 FINER = 12, 16, 24
 STIFF = dict(Ca=0.001, duration=0.6, length=5)
-MODES = 12    # Legendre polynomials of an outline
+MODES = 16    # Legendre polynomials of an outline
 FLOW = HERE / "flow.npz"
 
 
@@ -33,10 +34,15 @@ def label(variables):
     return f"a/R {variables['ratio']:g}, Ca {variables['Ca']:g}, {variables['cells']} cells"
 
 
+def softer(number):
+    """The softest take longer to become steady, if they do."""
+    return dict(BASE, Ca=number, **(dict(duration=6, length=7) if number >= 0.05 else {}))
+
+
 def cases():
     """(name of the series, label, variables) of every run."""
     for name, several in (("size", [dict(BASE, ratio=ratio) for ratio in SIZES]),
-                          ("Ca", [dict(BASE, Ca=number) for number in NUMBERS if number != BASE["Ca"]]),
+                          ("Ca", [softer(number) for number in NUMBERS if number != BASE["Ca"]]),
                           ("stiff", [{**BASE, **STIFF, "ratio": ratio, "cells": cells}
                                      for ratio in SIZES for cells in FINER])):
         for variables in several:
@@ -52,16 +58,21 @@ def read_dump(path):
     return box, np.array([line.split() for line in lines[first:]], dtype=float)
 
 
-def outline(path, tube=2.0):
-    """x and r of a meridian, over the radius of the tube, from the centre of the vertices; rms distance of the
-    vertices from it. Front at the right."""
+def outline(path, shape="capsule_2562", tube=2.0):
+    """x and r of the meridian, over the radius of the tube, from the middle of the capsule; rms distance of the vertices
+    from it. Front at the right. A series in the angle that a vertex had on the sphere, so that the back may be hollow."""
     x = read_dump(path)[1][:, 1:4] / tube
+    place = read_molecule(Path(POTENTIALS) / f"{shape}.mol")[0]
+    cosine = place[:, 0] / np.linalg.norm(place, axis=1)
+    sine = np.sqrt(1 - cosine**2)
     along, across = x[:, 0] - (x[:, 0].min() + x[:, 0].max()) / 2, np.hypot(x[:, 1], x[:, 2])
-    distance, cosine = np.hypot(along, across), along / np.hypot(along, across)
-    series = np.polynomial.legendre.Legendre.fit(cosine, distance, MODES, domain=[-1, 1])
-    angle = np.linspace(0, np.pi, 61)
-    radius = series(np.cos(angle))
-    return radius * np.cos(angle), radius * np.sin(angle), np.sqrt(np.mean((distance - series(cosine))**2))
+    basis = np.polynomial.legendre.legvander(cosine, MODES)
+    ahead = np.linalg.lstsq(basis, along, rcond=None)[0]
+    outward = np.linalg.lstsq(basis * sine[:, None], across, rcond=None)[0]
+    off = np.hypot(along - basis @ ahead, across - sine * (basis @ outward))
+    angle = np.linspace(0, np.pi, 81)
+    basis = np.polynomial.legendre.legvander(np.cos(angle), MODES)
+    return basis @ ahead, np.sin(angle) * (basis @ outward), np.sqrt(np.mean(off**2))
 
 
 def slice_of_flow(path, tube=2.0, mean=1.0):
@@ -90,13 +101,17 @@ def run(arguments, variables):
         done = run_script(arguments, HERE / "in.capsule-channel", folder, variables)
         if done.returncode:
             sys.exit(done.stdout[-600:])
-        if "duration" not in variables:
+        if variables["Ca"] != STIFF["Ca"]:
             keep_outline(label(variables), Path(folder) / "capsule.dump")
         if variables == BASE:
-            velocity, x, y = slice_of_flow(Path(folder) / "flow.dump")
-            centre = np.mean(read_dump(Path(folder) / "capsule.dump")[1][:, 1]) / 4
-            np.savez_compressed(FLOW, velocity=velocity.astype(np.float32), x=x, y=y, centre=centre)
+            keep_flow(Path(folder))
         return [measure(folder, variables)]
+
+
+def keep_flow(folder, tube=2.0):
+    velocity, x, y = slice_of_flow(folder / "flow.dump", tube)
+    ends = read_dump(folder / "capsule.dump")[1][:, 1] / (2 * tube)
+    np.savez_compressed(FLOW, velocity=velocity.astype(np.float32), x=x, y=y, centre=(ends.min() + ends.max()) / 2)
 
 
 def keep_outline(name, dump):
@@ -142,7 +157,7 @@ def draw_outline(path):
     bottom.annotate("", (0.72, 0), (0.52, 0), arrowprops=dict(arrowstyle="->"))
     bottom.set(aspect="equal", xlim=(-1, 1), ylim=(-0.55, 0.55), xlabel="x / D", ylabel="y / D",
                title="(b) outline, a/R = 0.85")
-    bottom.legend(frameon=False, loc="upper left", fontsize=8)
+    bottom.legend(frameon=False, loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=8)
     figure.tight_layout()
     figure.savefig(path, dpi=90)
 
@@ -187,7 +202,7 @@ def report(table):
         print(f"{name}: U {row[0][4]:.4f}, length {row[0][5]:.4f}, width {row[0][6]:.4f}, pressure {row[0][7]:.4f}")
     for ratio, exact in RIGID.items():
         speeds = [table[label({**BASE, **STIFF, "ratio": ratio, "cells": cells})][0][4] for cells in FINER]
-        best = np.polyfit(1 / np.array(FINER, dtype=float), speeds, 1)[1]
+        best = (FINER[-1] * speeds[-1] - FINER[-2] * speeds[-2]) / (FINER[-1] - FINER[-2])
         print(f"a/R {ratio}: exact {exact:.4f}, errors", *(f"{100 * (speed / exact - 1):+.2f}" for speed in speeds),
               f"%, extrapolated in dx {100 * (best / exact - 1):+.2f} %")
 
