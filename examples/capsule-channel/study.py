@@ -21,7 +21,7 @@ from read_ave_time import read_table  # noqa: E402
 
 COLUMNS = "a/R", "Ca", "cells", "time", "U", "length", "width", "pressure", "change"
 BASE = dict(ratio=0.85, Ca=0.015, cells=20)
-RIGID = {0.75: 1.346049, 0.8: 1.275486, 0.85: 1.205191, 0.9: 1.135625}    # exact, ../reference/05g
+RIGID = {0.75: 1.346049, 0.8: 1.275486, 0.85: 1.205191, 0.9: 1.135625}    # exact, ../reference/04c
 SIZES = tuple(RIGID)
 NUMBERS = 0.005, 0.015, 0.03, 0.05, 0.1
 FINER = 12, 16, 24
