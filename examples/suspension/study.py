@@ -84,7 +84,9 @@ def write(cases, path):
 
 def draw(cases, pictures, path):
     figure = plt.figure(figsize=(13, 9.4), layout="constrained")
-    axes = figure.subplot_mosaic([["viscosity", "sizes", "gaps"], ["10", "60", "100"]], height_ratios=(3, 4))
+    curves, cells = figure.subfigures(2, 1, height_ratios=(3, 4))
+    axes = curves.subplot_mosaic([["viscosity", "sizes", "gaps"]])
+    axes.update(cells.subplot_mosaic([list(pictures)]))
     axes["sizes"].set_xticks(range(10), [str(2**n) for n in range(10)])
     bars = [name for name in cases if name[0] == "a"]
     for name, case in cases.items():
@@ -101,11 +103,10 @@ def draw(cases, pictures, path):
     axes["gaps"].set(xlabel="least gap of two neighbors (um)", ylabel="pairs (%)")
     for name in ("viscosity", "sizes", "gaps"):
         axes[name].legend(frameon=False, fontsize=8)
-    for rate in map(str, RATES):
+    for rate, picture in pictures.items():
         axes[rate].axis("off")
-        if rate in pictures:
-            axes[rate].imshow(plt.imread(pictures[rate]))
-            axes[rate].set_title(f"{rate} /s, adhesive, each aggregate of one color")
+        axes[rate].imshow(plt.imread(picture))
+        axes[rate].set_title(f"{rate} /s, adhesive: a color for each aggregate", fontsize=10)
     figure.savefig(path, dpi=110)
 
 

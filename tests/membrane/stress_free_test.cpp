@@ -93,6 +93,8 @@ TEST(StressFree, NoForceOfTheSheetInThatShape)
   const DiscFromSphere cell;
   for (const auto &[name, parameters] : each_energy()) {
     if (parameters.bending > 0 || parameters.global_area > 0 || parameters.volume > 0) continue;
+    if (parameters.stretch.i1 < 2 && parameters.stretch.stiffness > 0)
+      continue;    // sets in before
     SCOPED_TRACE(name);
     const double scale = total_norm(evaluate(cell.shape, parameters, cell.shape.vertices).force);
     const Result rest = evaluate(cell.shape, parameters, cell.sphere.vertices);
