@@ -46,7 +46,7 @@ class Throat(unittest.TestCase):
         # at first cells are free of stress, and the flow is that of plasma
         straight, throat = (table["v_u"][0] / plasma_velocity(width)[0] for table, width in zip(self.tables, self.throats))
         print(f"\nvelocity over that of Poiseuille's law: straight {straight:.4f}, throat {throat:.4f}")
-        self.assertLess(abs(straight - 1), 0.05)    # a radius of 10 dx; 0.8 % at 20 dx
+        self.assertLess(abs(straight - 1), 0.01)
         # the throat resists more than the sum of its sections, as flow has to turn
         self.assertLess(throat, 1)
         self.assertGreater(throat, 0.75)
