@@ -79,7 +79,7 @@ bool near(const double *x, const Grid &grid, const Vec3 &inverse_spacing)
 
 template <typename Kernel>
 int spread_with(const Grid &grid, const Markers &markers, const double *position,
-                const double *applied, double factor, const VectorField &force)
+                const double *applied, double factor, const VectorField &force, const Box &within)
 {
   const Vec3 inverse_spacing = inverse(grid.spacing);
   const double density = factor / grid.cell_volume();
@@ -88,7 +88,7 @@ int spread_with(const Grid &grid, const Markers &markers, const double *position
     const std::ptrdiff_t i = 3 * std::ptrdiff_t(markers.index[n]);
     if (!near(position + i, grid, inverse_spacing)) return markers.index[n];
     const Stencil<Kernel> stencil(position + i, grid, inverse_spacing);
-    if (!stencil.inside(force.box())) return markers.index[n];
+    if (!stencil.inside(within)) return markers.index[n];
     for (int c = 0; c < 3; ++c) {
       const Row row = stencil.row_weights(c) * (density * applied[i + c]);
       stencil.for_each_row(c, fields[c], [&](double *points, double weight) {
@@ -126,16 +126,21 @@ double surface_offset(KernelKind kernel)
   return kernel == KernelKind::peskin4 ? Peskin4::surface_offset : Roma3::surface_offset;
 }
 
+double sharpening(KernelKind kernel)
+{
+  return kernel == KernelKind::peskin4 ? Peskin4::sharpening : Roma3::sharpening;
+}
+
 int spread(KernelKind kernel, const Grid &grid, const Markers &markers, const double *position,
-           const double *applied, double factor, const VectorField &force)
+           const double *applied, double factor, const VectorField &force, const Box &within)
 {
   switch (kernel) {
     case KernelKind::roma3:
-      return spread_with<Roma3>(grid, markers, position, applied, factor, force);
+      return spread_with<Roma3>(grid, markers, position, applied, factor, force, within);
     case KernelKind::peskin4:
       break;
   }
-  return spread_with<Peskin4>(grid, markers, position, applied, factor, force);
+  return spread_with<Peskin4>(grid, markers, position, applied, factor, force, within);
 }
 
 void interpolate(KernelKind kernel, const Grid &grid, const Markers &markers,

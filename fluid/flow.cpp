@@ -41,9 +41,47 @@ void Flow::clear_force()
 }
 
 int Flow::spread(KernelKind kernel, const Markers &markers, const double *position,
-                 const double *force, double factor)
+                 const double *force, double factor, As as)
 {
-  return fluid::spread(kernel, grid_, markers, position, force, factor, force_);
+  return fluid::spread(kernel, grid_, markers, position, force, factor, force_, reach(as));
+}
+
+/// Where kernels find velocities.
+Box Flow::reach(As as) const
+{
+  Box box = halo_.box();
+  if (as == As::points || box.empty()) return box;
+  for (int d = 0; d < 3; ++d) {
+    if (d == 2 && grid_.walls) continue;
+    ++box.lo[d];
+    --box.hi[d];
+  }
+  return box;
+}
+
+/// u - sharpening h_d^2 d2u/dx_d2, summed over the directions d.
+const VectorField &Flow::sharpened(KernelKind kernel, const VectorField &velocity,
+                                   const Walls &walls)
+{
+  if (!sharp_.bytes()) sharp_ = VectorField(halo_.box());
+  const double share = sharpening(kernel);
+  Box box = reach(As::sheets);
+  if (grid_.walls && !box.empty()) {
+    box.lo[2] = std::max(box.lo[2] + 1, 0);
+    box.hi[2] = std::min(box.hi[2] - 1, grid_.cells[2]);
+  }
+  const std::ptrdiff_t row = velocity.box().extent(0), plane = row * velocity.box().extent(1);
+  const int first = box.lo[0], n = box.extent(0);
+  for (int c = 0; c < 3; ++c)
+    for_each_row(box, [&, from = velocity[c], to = sharp_[c]](int j, int k) {
+      const double *const u = &from(first, j, k);
+      double *const result = &to(first, j, k);
+      for (int i = 0; i < n; ++i)
+        result[i] = (1 + 6 * share) * u[i] - share * (u[i - 1] + u[i + 1] + u[i - row] +
+                                                      u[i + row] + u[i - plane] + u[i + plane]);
+    });
+  if (grid_.walls) reflect_velocity(grid_, walls, sharp_);
+  return sharp_;
 }
 
 void Flow::gather_force()
@@ -183,21 +221,23 @@ void Flow::share_force()
 }
 
 void Flow::interpolate(KernelKind kernel, const Markers &markers, const double *position,
-                       double *velocity) const
+                       double *velocity, As as)
 {
   assert(shared_);
-  fluid::interpolate(kernel, grid_, markers, position, velocity_, velocity);
+  const VectorField &field = as == As::sheets ? sharpened(kernel, velocity_, walls_) : velocity_;
+  fluid::interpolate(kernel, grid_, markers, position, field, velocity);
 }
 
 void Flow::respond(KernelKind kernel, const Markers &markers, const double *position,
-                   const double *force, double *velocity)
+                   const double *force, double *velocity, As as)
 {
   if (!response_.bytes()) {
     response_force_ = VectorField(halo_.box());
     response_ = VectorField(halo_.box());
   }
   response_force_.clear();
-  const int outside = fluid::spread(kernel, grid_, markers, position, force, 1.0, response_force_);
+  const int outside =
+      fluid::spread(kernel, grid_, markers, position, force, 1.0, response_force_, reach(as));
   assert(outside < 0);
   (void)outside;
   response_lower_ = response_upper_ = {0, 0, 0};
@@ -205,7 +245,8 @@ void Flow::respond(KernelKind kernel, const Markers &markers, const double *posi
   halo_.add_back(response_force_.views());
   solve_for(response_, response_force_, {});
   fill_ghosts(response_, {});
-  fluid::interpolate(kernel, grid_, markers, position, response_, velocity);
+  const VectorField &field = as == As::sheets ? sharpened(kernel, response_, {}) : response_;
+  fluid::interpolate(kernel, grid_, markers, position, field, velocity);
 }
 
 void Flow::add_response(double factor)
@@ -252,7 +293,7 @@ std::size_t Flow::bytes() const
 {
   std::size_t sum = pressure_.bytes() + halo_.bytes() + solver_.bytes();
   for (const VectorField *field :
-       {&force_, &velocity_, &previous_, &rhs_, &response_force_, &response_})
+       {&force_, &velocity_, &previous_, &rhs_, &response_force_, &response_, &sharp_})
     sum += field->bytes();
   return sum;
 }

@@ -25,9 +25,14 @@ class Flow {
 
   void clear_force();
 
-  /// Returns the first marker whose kernel leaves the ghost layers (nothing is spread for it), or -1.
+  /// Markers either each stand for themselves or, as `sheets`, for surfaces with fluid on both sides, which the flow
+  /// leaves the kink that their forces make, see sharpening().
+  enum class As { points, sheets };
+
+  /// Returns the first marker whose kernel leaves the ghost layers (nothing is spread for it), or -1. Sheets take the
+  /// outermost layer for differences.
   int spread(KernelKind kernel, const Markers &markers, const double *position, const double *force,
-             double factor);
+             double factor, As as = As::points);
 
   /// Adds the ghosts' share of the force to its owners: the exchange between spread and solve.
   void gather_force();
@@ -51,13 +56,13 @@ class Flow {
   void share_force();
 
   void interpolate(KernelKind kernel, const Markers &markers, const double *position,
-                   double *velocity) const;
+                   double *velocity, As as = As::points);
 
   /// Velocities at the markers that further forces on them would add now (solve, start_step): the mobility of the
   /// markers, by the coupled scheme. `add_response` adds a multiple of these forces and of their flow. The markers
   /// must be those of a spread that returned -1, at the same positions.
   void respond(KernelKind kernel, const Markers &markers, const double *position,
-               const double *force, double *velocity);
+               const double *force, double *velocity, As as = As::points);
   void add_response(double factor);
 
   /// Adds a uniform velocity, ghosts included: triply periodic and without inertia only, where no force drives the mean.
@@ -109,6 +114,8 @@ class Flow {
   void solve_now(const VectorField &rhs);
   void solve_for(const VectorField &velocity, const VectorField &rhs, const Drive &by);
   void fill_ghosts(const VectorField &velocity, const Walls &walls);
+  Box reach(As as) const;
+  const VectorField &sharpened(KernelKind kernel, const VectorField &velocity, const Walls &walls);
 
   Grid grid_;
   Decomposition decomposition_;
@@ -133,6 +140,7 @@ class Flow {
 
   ScalarField pressure_;
   VectorField response_force_, response_;
+  VectorField sharp_;    ///< velocity of sheets
   Vec3 response_lower_{0, 0, 0}, response_upper_{0, 0, 0};
   StokesSolver solver_;
 };

@@ -20,17 +20,20 @@ from read_ave_time import read_ave_time  # noqa: E402
 from snapshots import surfaces  # noqa: E402
 
 CASES = {    # variables of in.fahraeus
-    "d20h30": {"diameter": 20, "hematocrit": 0.3, "length": 10.8, "dx": 0.6, "turns": 30},
-    "d20h30fine": {"diameter": 20, "hematocrit": 0.3, "length": 10.5, "dx": 0.5, "turns": 12},
-    "d20h30finest": {"diameter": 20, "hematocrit": 0.3, "length": 10.5, "dx": 0.35, "shape": "rbc_2562", "turns": 6},
+    "d20h30": {"diameter": 20, "hematocrit": 0.3, "length": 10.5, "dx": 0.5, "turns": 12},
     "d20h45": {"diameter": 20, "hematocrit": 0.45, "length": 10.5, "dx": 0.5, "turns": 12},
-    "d10h30": {"diameter": 10, "hematocrit": 0.3, "length": 16, "dx": 0.5, "turns": 15},
+    "d40h30": {"diameter": 40, "hematocrit": 0.3, "length": 10.5, "dx": 0.5, "turns": 12},
+    "d40h45": {"diameter": 40, "hematocrit": 0.45, "length": 10.5, "dx": 0.5, "turns": 6},
+    "d10h30": {"diameter": 10, "hematocrit": 0.3, "length": 16, "dx": 0.5, "turns": 12},
+    "d20h30coarse": {"diameter": 20, "hematocrit": 0.3, "length": 10.8, "dx": 0.6, "turns": 12},
+    "d20h30long": {"diameter": 20, "hematocrit": 0.3, "length": 21, "dx": 0.5, "turns": 12},
     "d10h30fine": {"diameter": 10, "hematocrit": 0.3, "length": 16, "dx": 0.3, "shape": "rbc_2562", "turns": 6},
+    "d20h30fine": {"diameter": 20, "hematocrit": 0.3, "length": 10.5, "dx": 0.35, "shape": "rbc_2562", "turns": 6},
 }
 RATE = 50e-6             # mean velocity over diameter, 1/us
-COLORS = {"d20h30": "#b3202a", "d20h30fine": "#e8813a", "d20h30finest": "#7d3c98", "d20h45": "#2a6fb0", "d10h30": "#4b8b3b",
-          "d10h30fine": "#111111"}
-PICTURES = "d20h30", "d20h45", "d10h30"
+COLORS = {"d20h30": "#b3202a", "d20h45": "#2a6fb0", "d40h30": "#e8813a", "d40h45": "#7d3c98", "d10h30": "#4b8b3b",
+          "d20h30coarse": "#d98880", "d20h30long": "#641e16", "d10h30fine": "#1d3b16", "d20h30fine": "#111111"}
+PICTURES = "d20h45", "d40h45", "d10h30"
 
 
 def pries_viscosity(diameter, discharge):

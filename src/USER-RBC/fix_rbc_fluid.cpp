@@ -287,7 +287,7 @@ int FixRBCFluid::layers_needed() const
   double layers = 0;
   for (int d = 0; d < 3; ++d)
     layers = std::max(layers, 0.5 * neighbor->skin / (domain->prd[d] / cells[d]) + cells_per_step);
-  return static_cast<int>(std::ceil(layers)) + KERNEL_LAYERS;
+  return static_cast<int>(std::ceil(layers)) + KERNEL_LAYERS + (sheets ? 1 : 0);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -349,6 +349,7 @@ void FixRBCFluid::init()
   if (has_inertia() && output->restart_flag) restarts.check_size(*current_flow);
 
   std::string driver;
+  sheets = false;
   for (Fix *fix : modify->get_fix_by_style("^rbc/ib$")) {
     const auto ib = dynamic_cast<FixRBCIB *>(fix);
     if (ib->fluid() != id) continue;
@@ -357,6 +358,7 @@ void FixRBCFluid::init()
                  fix->id);
     driver = fix->id;
     cells_per_step = ib->courant();
+    sheets = ib->has_sheets();
     const double half = 0.5 * *std::min_element(cells.begin(), cells.end());
     if (cells_per_step > half)
       error->all(FLERR,

@@ -83,6 +83,7 @@ class FixRBCFluid : public Fix {
   int ghost_layers = -1;
   bool driven = false;               // by a fix rbc/ib
   double cells_per_step = 1;         // that its atoms may cross
+  bool sheets = false;               // its atoms are sheets
   bigint earlier_solves = 0;         // before a restart
   bigint version = 0;                // of the velocity
   fluid::Traffic earlier_traffic;    // on earlier decompositions

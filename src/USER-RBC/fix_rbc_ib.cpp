@@ -114,6 +114,8 @@ void FixRBCIB::parse(int narg, char **arg)
       order = utils::inumeric(FLERR, value, false, lmp);
       if (order != 2 && order != 3)
         error->all(FLERR, iarg + 1, "Fix rbc/ib order value {} must be 2 or 3", value);
+    } else if (keyword == "sheets") {
+      sheets = utils::logical(FLERR, value, false, lmp) == 1 ? Sheets::YES : Sheets::NO;
     } else if (keyword == "courant")
       courant = positive(iarg + 1, keyword);
     else if (keyword == "adapt") {
@@ -124,12 +126,14 @@ void FixRBCIB::parse(int narg, char **arg)
     } else
       error->all(FLERR, iarg,
                  "Unknown fix rbc/ib keyword {}; allowed: kernel, scheme, integrator, order, tol, "
-                 "maxiter, courant, adapt",
+                 "maxiter, courant, adapt, sheets",
                  keyword);
     iarg += 2;
   }
   if (order > 2 && integrator != Integrator::RKC)
     error->all(FLERR, "Fix rbc/ib order {} needs integrator rkc", order);
+  if (sheets == Sheets::YES && scheme == Scheme::DIRECT)
+    error->all(FLERR, "Fix rbc/ib sheets yes needs scheme elastic");
 
   motion = std::make_unique<MarkerMotion>(lmp, fmt::format("Fix rbc/ib {}", id), groupbit, kernel);
   motion->courant = courant;
@@ -245,8 +249,17 @@ void FixRBCIB::init()
     error->all(FLERR, "Fix rbc/ib tol and maxiter need scheme direct or a fix rbc/membrane with "
                       "viscosity");
   for (const Fix *wall : modify->get_fix_by_style("^rbc/wall$")) check_apart(wall);
+  motion->as = has_sheets() ? fluid::Flow::As::sheets : fluid::Flow::As::points;
   motion->connect(fluid_fix, membranes);
   steady->start_run(fluid_fix, late_forces);
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool FixRBCIB::has_sheets() const
+{
+  if (sheets != Sheets::WITH_MEMBRANES) return sheets == Sheets::YES;
+  return scheme == Scheme::ELASTIC && !modify->get_fix_by_style("^rbc/membrane$").empty();
 }
 
 /* ----------------------------------------------------------------------

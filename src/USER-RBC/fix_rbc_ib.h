@@ -38,14 +38,17 @@ class FixRBCIB : public Fix {
 
   const std::string &fluid() const { return fluid_id; }    // ID of the fix rbc/fluid it drives
   double courant() const { return motion->courant; }    // fluid cells that an atom may cross a step
+  bool has_sheets() const;                              // its atoms are sheets of markers
 
  private:
   using Integrator = SteadySteps::Method;
   enum class Scheme { ELASTIC, DIRECT };
+  enum class Sheets { WITH_MEMBRANES, YES, NO };
   using Stage = MarkerMotion::Stage;
 
   std::string fluid_id;
   Scheme scheme = Scheme::ELASTIC;
+  Sheets sheets = Sheets::WITH_MEMBRANES;
 
   class FixRBCFluid *fluid_fix = nullptr;
   bool inertia = false;    // of the fluid

@@ -1,7 +1,6 @@
 #include "rbc_create.h"
 
 #include "atom.h"
-#include "atom_vec.h"
 #include "cell_packing.h"
 #include "comm.h"
 #include "domain.h"
@@ -9,6 +8,7 @@
 #include "math_const.h"
 #include "random_park.h"
 #include "rbc_cell_template.h"
+#include "rbc_new_atoms.h"
 #include "rbc_region_enclosure.h"
 #include "region.h"
 
@@ -338,55 +338,26 @@ std::vector<RBCCreate::Cell> RBCCreate::pack()
 
 void RBCCreate::create_atoms(const std::vector<Cell> &cells)
 {
-  tagint last[2] = {0, 0};
-  for (int i = 0; i < atom->nlocal; ++i) {
-    last[0] = std::max(last[0], atom->tag[i]);
-    last[1] = std::max(last[1], atom->molecule[i]);
-  }
-  MPI_Allreduce(MPI_IN_PLACE, last, 2, MPI_LMP_TAGINT, MPI_MAX, world);
+  tagint molecule = 0;
+  for (int i = 0; i < atom->nlocal; ++i) molecule = std::max(molecule, atom->molecule[i]);
+  MPI_Allreduce(MPI_IN_PLACE, &molecule, 1, MPI_LMP_TAGINT, MPI_MAX, world);
   bigint vertices = 0;
   for (const Cell &cell : cells) vertices += cell.kind->shape->size();
-  if (last[0] + vertices > MAXTAGINT) error->all(FLERR, "Rbc/create: too many atoms for atom IDs");
 
   RanPark random(lmp, std::max(seed, 1));
-  const int nlocal_previous = atom->nlocal;
-  atom->nghost = 0;    // their indices are taken
+  NewAtoms atoms(lmp, "Rbc/create", vertices);
   for (const Cell &cell : cells) {
-    ++last[1];
+    ++molecule;
     double velocity[3];
     for (double &component : velocity) component = speed * (2 * random.uniform() - 1);
     for (int v = 0; v < cell.kind->shape->size(); ++v) {
-      ++last[0];
-      Vec3 vertex = cell.vertex(v);
-      double *x = vertex.data();
-      imageint image = ((imageint)IMGMAX << IMG2BITS) | ((imageint)IMGMAX << IMGBITS) | IMGMAX;
-      domain->remap(x, image);
-      int place[3];
-      if (comm->coord2proc(x, place[0], place[1], place[2]) != comm->me) continue;
-      atom->avec->create_atom(cell.kind->type, x);
-      const int i = atom->nlocal - 1;
-      atom->tag[i] = last[0];
-      atom->molecule[i] = last[1];
-      atom->image[i] = image;
-      std::copy(velocity, velocity + 3, atom->v[i]);
+      const NewAtoms::Made made = atoms.add(cell.kind->type, cell.vertex(v));
+      if (made.index < 0) continue;
+      atom->molecule[made.index] = molecule;
+      atom->image[made.index] = made.image;
+      std::copy(velocity, velocity + 3, atom->v[made.index]);
     }
   }
-  atom->data_fix_compute_variable(nlocal_previous, atom->nlocal);
-
-  bigint nlocal = atom->nlocal;
-  MPI_Allreduce(&nlocal, &atom->natoms, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  atom->tag_check();
-  if (atom->map_style != Atom::MAP_NONE) {
-    atom->map_init();
-    atom->map_set();
-  }
-
-  // LAMMPS wants a mass; fix rbc/ib uses it with scheme direct only
-
-  for (const Kind &kind : kinds) {
-    if (!atom->mass || atom->mass_setflag[kind.type]) continue;
-    atom->set_mass(FLERR, kind.type, 1.0);
-    if (comm->me == 0)
-      utils::logmesg(lmp, "Mass of atom type {} set to 1.0, for it has not been set\n", kind.type);
-  }
+  atoms.finish();
+  for (const Kind &kind : kinds) atoms.set_missing_mass(kind.type);
 }

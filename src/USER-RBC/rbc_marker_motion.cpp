@@ -92,7 +92,8 @@ void MarkerMotion::spread_forces()
   fluid::Flow &flow = fluid_->flow();
   spreading.start();
   flow.clear_force();
-  const int outside = flow.spread(kernel_, markers(), rows(atom->x), rows(atom->f), force->ftm2v);
+  const int outside =
+      flow.spread(kernel_, markers(), rows(atom->x), rows(atom->f), force->ftm2v, as);
   if (outside >= 0) report_outside(outside);
   spreading.stop();
   if (fluid_->rigid_walls() && !probing) fluid_->spread_walls(total_force(), *stop);
@@ -134,7 +135,7 @@ void MarkerMotion::interpolate(Stage stage)
   exchanging.stop();
 
   interpolating.start();
-  flow.interpolate(kernel_, markers(), rows(atom->x), rows(atom->v));
+  flow.interpolate(kernel_, markers(), rows(atom->x), rows(atom->v), as);
   interpolating.stop();
 
   keep_volume(stage);
@@ -267,7 +268,7 @@ void MarkerMotion::resistance(const Numbers &p, Numbers &v)
   for (int i : members_)
     for (int d = 0; d < 3; ++d) applied_[3 * std::size_t(i) + d] = -atom->f[i][d] * force->ftm2v;
   solving.start();
-  fluid_->flow().respond(kernel_, markers(), rows(atom->x), applied_.data(), response_.data());
+  fluid_->flow().respond(kernel_, markers(), rows(atom->x), applied_.data(), response_.data(), as);
   solving.stop();
   for (std::size_t n = 0; n < members_.size(); ++n)
     for (int d = 0; d < 3; ++d) v[3 * n + d] = response_[3 * std::size_t(members_[n]) + d];

@@ -1,7 +1,7 @@
 #ifndef LMP_RBC_MARKER_MOTION_H
 #define LMP_RBC_MARKER_MOTION_H
 
-#include "coupling.h"
+#include "flow.h"
 #include "gmres.h"
 #include "pointers.h"
 #include "rbc_collective_stop.h"
@@ -72,6 +72,9 @@ class MarkerMotion : protected Pointers, public rbc::Motion {
   /// Velocities are those of positions that the atoms do not take, of any size, without viscous forces and without
   /// rigid walls, which make what relaxes slower.
   bool probing = false;
+
+  /// What the markers are to the flow.
+  fluid::Flow::As as = fluid::Flow::As::points;
 
   /// Error allowed in the velocities where forces depend on them, relative to the fastest marker.
   double tolerance = 1e-4;

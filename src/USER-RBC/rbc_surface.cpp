@@ -1,10 +1,10 @@
 #include "rbc_surface.h"
 
 #include "atom.h"
-#include "atom_vec.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "rbc_new_atoms.h"
 #include "rbc_region_enclosure.h"
 #include "region.h"
 #include "surface_sampling.h"
@@ -108,45 +108,15 @@ void RBCSurface::extent(Vec3 &lo, Vec3 &hi) const
                region->id);
 }
 
-/* ----------------------------------------------------------------------
-   every rank creates the atoms it owns
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 void RBCSurface::create_atoms(const std::vector<Vec3> &points)
 {
-  tagint last = 0;
-  for (int i = 0; i < atom->nlocal; ++i) last = std::max(last, atom->tag[i]);
-  MPI_Allreduce(MPI_IN_PLACE, &last, 1, MPI_LMP_TAGINT, MPI_MAX, world);
-  if (last + static_cast<bigint>(points.size()) > MAXTAGINT)
-    error->all(FLERR, "Rbc/surface: too many atoms for atom IDs");
-
-  const int nlocal_previous = atom->nlocal;
-  atom->nghost = 0;    // their indices are taken
-  for (Vec3 x : points) {
-    ++last;
-    imageint image = ((imageint)IMGMAX << IMG2BITS) | ((imageint)IMGMAX << IMGBITS) | IMGMAX;
-    domain->remap(x.data(), image);
-    int place[3];
-    if (comm->coord2proc(x.data(), place[0], place[1], place[2]) != comm->me) continue;
-    atom->avec->create_atom(type, x.data());
-    atom->tag[atom->nlocal - 1] = last;    // molecule and image stay 0
-  }
-  atom->data_fix_compute_variable(nlocal_previous, atom->nlocal);
-
-  bigint nlocal = atom->nlocal;
-  MPI_Allreduce(&nlocal, &atom->natoms, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  atom->tag_check();
-  if (atom->map_style != Atom::MAP_NONE) {
-    atom->map_init();
-    atom->map_set();
-  }
-
-  if (!atom->mass) return;
-  if (mass > 0)
+  NewAtoms atoms(lmp, "Rbc/surface", static_cast<bigint>(points.size()));
+  for (const Vec3 &x : points) atoms.add(type, x);    // molecule and image stay 0
+  atoms.finish();
+  if (atom->mass && mass > 0)
     atom->set_mass(FLERR, type, mass);
-  else if (!atom->mass_setflag[type]) {
-    atom->set_mass(FLERR, type, 1.0);
-    if (comm->me == 0)
-      utils::logmesg(lmp, "Mass of atom type {} set to 1.0, for it has not been set\n", type);
-  }
+  else
+    atoms.set_missing_mass(type);
 }

@@ -135,6 +135,8 @@ IB_ERRORS = {
     "order of midpoint": (dict(ib=SHEAR["ib"] + " order 3"), ["rbc/ib", "order 3", "integrator rkc"]),
     "courant zero": (dict(ib=SHEAR["ib"] + " courant 0"), ["rbc/ib", "courant", "0", "> 0"]),
     "courant without value": (dict(ib=SHEAR["ib"] + " courant"), ["fix rbc/ib courant", "missing"]),
+    "sheets maybe": (dict(ib=SHEAR["ib"] + " sheets maybe"), ["maybe", "boolean"]),
+    "sheets with masses": (dict(fluid=UNSTEADY, ib=DIRECT + " sheets yes"), ["rbc/ib", "sheets yes", "scheme elastic"]),
     "adapt with one value": (dict(ib=SHEAR["ib"] + " adapt 1e-4"), ["fix rbc/ib adapt", "missing"]),
     "adapt to zero": (dict(ib=SHEAR["ib"] + " adapt 0 100"), ["rbc/ib", "adapt error", "0", "> 0"]),
     "adapt up to zero": (dict(ib=SHEAR["ib"] + " adapt 1e-4 0"), ["rbc/ib", "adapt largest timestep", "0", "> 0"]),

@@ -87,7 +87,7 @@ class Stops(unittest.TestCase):
         at = result.path(f"state.{step - 1}")
         again = run(scene(units=None, style=None, boundary=None, box=None, create_box=None, cells=None,
                           newton=f"read_restart {at}", fluid=fluid(), timestep="timestep 50",
-                          dump=dump_line(60) + " first yes", run="run 60"))
+                          dump=dump_line(120) + " first yes", run="run 120"))
         frame = result.dump().steps.index(step - 1)
         np.testing.assert_array_equal(again.dump().positions(0), result.dump().positions(frame))
         self.assertLess(abs(volume(again.dump().positions(), TRIANGLES) / volume(SHAPE, TRIANGLES) - 1), 1e-4)
@@ -176,7 +176,7 @@ class Squeezed(unittest.TestCase):
         planes = (f"variable low equal 4-{half}\nvariable high equal 4+{half}\n"
                   "fix low all indent 10 plane z v_low lo\nfix high all indent 10 plane z v_high hi")
         result = run(scene(box="region box block 0 20 0 20 0 8", cells="rbc/create rbc single 10 10 4", before=planes,
-                           fluid=fluid(0.0, height=8.0), ib=IB + "rkc 24", timestep="timestep 1000",
+                           fluid=fluid(0.0, height=8.0), ib=IB + "rkc 24 sheets no", timestep="timestep 1000",
                            dump=dump_line(steps), run=f"run {steps}", every="thermo 100"))
         start, end = result.dump().positions(0), result.dump().positions()
         height, kept = np.ptp(end[:, 2]), volume(end, TRIANGLES) / volume(start, TRIANGLES)

@@ -1,0 +1,39 @@
+"""What a scene does not use costs it nothing: no neighbor list, no time, no message."""
+import re
+import unittest
+
+from lammps_case import SHEAR, run, scene
+
+USED = ["Membrane", "Spread", "Solve", "Interpolate", "Exchange", "Total"]
+
+
+def sections(result):
+    table = result.printed.split("USER-RBC step cost:")[1].split("Fluid:")[0]
+    return re.findall(r"^(\w+) +\|", table, re.MULTILINE)[1:]
+
+
+def traffic(result):
+    return tuple(map(float, re.search(r"Fluid: (\S+) messages and (\S+) bytes", result.printed).groups()))
+
+
+class OneCell(unittest.TestCase):
+    """Without contact and walls."""
+
+    def test_no_neighbor_list_and_no_row_of_cost(self):
+        alone = run(scene(SHEAR, run="run 10"))
+        self.assertNotIn("Neighbor list info", alone.printed)
+        self.assertIn("Total # of neighbors = 0", alone.printed)
+        self.assertEqual(sections(alone), USED)
+        with_contact = run(scene(SHEAR, before="pair_style rbc/jkr 0.6\npair_coeff 1 1 repulsive 0.007 0.4", run="run 10"))
+        self.assertEqual(sections(with_contact), ["Membrane", "Detection", "Contact", *USED[1:]])
+
+    def test_layers_for_sheets_only(self):
+        """Messages are the same; sheets exchange a layer of ghost cells more, points do not."""
+        points, sheets = (traffic(run(scene(SHEAR, ib=SHEAR["ib"] + f" sheets {word}", run="run 10"), ranks=2))
+                          for word in ("no", "yes"))
+        self.assertEqual(points[0], sheets[0])
+        self.assertLess(points[1], sheets[1])
+
+
+if __name__ == "__main__":
+    unittest.main()
