@@ -26,13 +26,10 @@ CASES = {    # variables of in.fahraeus
     "d40h45": {"diameter": 40, "hematocrit": 0.45, "length": 10.5, "dx": 0.5, "turns": 6},
     "d10h30": {"diameter": 10, "hematocrit": 0.3, "length": 16, "dx": 0.5, "turns": 12},
     "d20h30coarse": {"diameter": 20, "hematocrit": 0.3, "length": 10.8, "dx": 0.6, "turns": 12},
-    "d20h30long": {"diameter": 20, "hematocrit": 0.3, "length": 21, "dx": 0.5, "turns": 12},
-    "d10h30fine": {"diameter": 10, "hematocrit": 0.3, "length": 16, "dx": 0.3, "shape": "rbc_2562", "turns": 6},
-    "d20h30fine": {"diameter": 20, "hematocrit": 0.3, "length": 10.5, "dx": 0.35, "shape": "rbc_2562", "turns": 6},
 }
 RATE = 50e-6             # mean velocity over diameter, 1/us
 COLORS = {"d20h30": "#b3202a", "d20h45": "#2a6fb0", "d40h30": "#e8813a", "d40h45": "#7d3c98", "d10h30": "#4b8b3b",
-          "d20h30coarse": "#d98880", "d20h30long": "#641e16", "d10h30fine": "#1d3b16", "d20h30fine": "#111111"}
+          "d20h30coarse": "#d98880"}
 PICTURES = "d20h45", "d40h45", "d10h30"
 
 
@@ -128,7 +125,7 @@ def draw(cases, rows, pictures, path):
         for panel, series, reference in zip(panels, ("viscosity", "ratio", "layer"), ("pries_viscosity", "pries_ratio", None)):
             x, y = case[series] if series == "layer" else (case["turned"], case[series])
             panel.plot(x, y, color=color, label=label)
-            if reference and name in PICTURES:
+            if reference and not name.endswith("coarse"):
                 panel.axhline(row[reference], color=color, ls="--", lw=1)
     panels[0].set(ylabel="viscosity over that of plasma", ylim=(1, None))
     panels[1].set(ylabel="tube over discharge hematocrit", ylim=(None, 1))
