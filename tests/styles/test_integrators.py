@@ -42,20 +42,20 @@ class Order(unittest.TestCase):
         self.assertLess(abs(orders - order).max(), tolerance)
 
     def test_euler(self):
-        self.check("euler", 1, 0.05)
+        self.check("euler", 1, 0.05, (100, 50, 25))
 
     def test_midpoint(self):
-        self.check("midpoint", 2, 0.1)
+        self.check("midpoint", 2, 0.1, (100, 50, 25))
 
     def test_ab2(self):
         self.check("ab2", 2, 0.1)
 
     def test_rkc(self):
-        self.check("rkc 4", 2, 0.1)
-        self.check("rkc auto", 2, 0.1)
+        self.check("rkc 4", 2, 0.1, (100, 50, 25))
+        self.check("rkc auto", 2, 0.1, (100, 50, 25))
 
     def test_rkc_of_third_order(self):
-        self.check("rkc 6 order 3", 3, 0.1)
+        self.check("rkc 6 order 3", 3, 0.1, (160, 80, 40))
 
     def test_with_a_viscous_membrane(self):
         self.check("ab2", 2, 0.15, options=" tol 1e-9 maxiter 300", membrane=VISCOUS)
