@@ -46,15 +46,15 @@ int Flow::spread(KernelKind kernel, const Markers &markers, const double *positi
   return fluid::spread(kernel, grid_, markers, position, force, factor, force_, reach(as));
 }
 
-/// Where kernels find velocities.
+/// Where kernels find velocities: of sheets where these have neighbors on all sides, and beyond plates.
 Box Flow::reach(As as) const
 {
   Box box = halo_.box();
   if (as == As::points || box.empty()) return box;
   for (int d = 0; d < 3; ++d) {
-    if (d == 2 && grid_.walls) continue;
-    ++box.lo[d];
-    --box.hi[d];
+    const bool plates = d == 2 && grid_.walls;
+    if (!plates || box.lo[d] >= 0) ++box.lo[d];
+    if (!plates || box.hi[d] <= grid_.cells[d]) --box.hi[d];
   }
   return box;
 }
@@ -67,8 +67,8 @@ const VectorField &Flow::sharpened(KernelKind kernel, const VectorField &velocit
   const double share = sharpening(kernel);
   Box box = reach(As::sheets);
   if (grid_.walls && !box.empty()) {
-    box.lo[2] = std::max(box.lo[2] + 1, 0);
-    box.hi[2] = std::min(box.hi[2] - 1, grid_.cells[2]);
+    box.lo[2] = std::max(box.lo[2], 0);
+    box.hi[2] = std::min(box.hi[2], grid_.cells[2]);
   }
   const std::ptrdiff_t row = velocity.box().extent(0), plane = row * velocity.box().extent(1);
   const int first = box.lo[0], n = box.extent(0);
