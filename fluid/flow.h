@@ -25,8 +25,8 @@ class Flow {
 
   void clear_force();
 
-  /// Markers either each stand for themselves or, as `sheets`, for surfaces with fluid on both sides, which the flow
-  /// leaves the kink that their forces make, see sharpening().
+  /// Points, or sheets: surfaces with fluid on both sides, whose velocity is corrected for the kink of the flow that kernels
+  /// round off, see sharpening().
   enum class As { points, sheets };
 
   /// Returns the first marker whose kernel leaves the ghost layers (nothing is spread for it), or -1. Sheets take the

@@ -11,7 +11,6 @@ namespace fluid {
 // A surface of markers that does not slip at the markers is, for the flow beside it, one that does not slip a part of
 // the spacing further into the fluid. For a plane in a shear flow on one side of it that part is half the mean distance
 // of two points, both spread by the kernel of the same marker; `surface_offset` is its mean over the marker's places.
-
 //
 // `sharpening` removes this error for surfaces with fluid on both sides, see there. For a plane across an axis it would be
 // surface_offset over the sum of the squared weights, 3/8 and 1/2, which is the same at every place; it is what does so for

@@ -114,9 +114,9 @@ void FixRBCIB::parse(int narg, char **arg)
       order = utils::inumeric(FLERR, value, false, lmp);
       if (order != 2 && order != 3)
         error->all(FLERR, iarg + 1, "Fix rbc/ib order value {} must be 2 or 3", value);
-    } else if (keyword == "sheets") {
+    } else if (keyword == "sheets")
       sheets = utils::logical(FLERR, value, false, lmp) == 1 ? Sheets::YES : Sheets::NO;
-    } else if (keyword == "courant")
+    else if (keyword == "courant")
       courant = positive(iarg + 1, keyword);
     else if (keyword == "adapt") {
       need(2, keyword);

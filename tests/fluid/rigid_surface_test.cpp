@@ -164,7 +164,7 @@ Grid around_tube(double radius, double length)
 }
 
 /// Markers on a tube along x of the radius wide - depth (1 - cos(2 pi x / length)) / 2, or `outside` beyond it; with
-/// `normals` of length 1 and areas in the place of forces where given.
+/// areas times normals in the place of forces.
 struct Throat {
   double wide, depth;
 

@@ -119,7 +119,7 @@ class Limits(unittest.TestCase):
             away.append(rms(end - affine(start, 40 * DT * RATE)) / DIAMETER)
         print(f"\nmoduli times {factors}: {away} diameters from simple shear")
         self.assertLess(away[-1], 1e-4)
-        beyond = [10 - stiffer / softer for stiffer, softer in zip(away, away[1:])]    # of second order: linear in the moduli
+        beyond = [10 - stiffer / softer for stiffer, softer in zip(away, away[1:])]    # of second order in the moduli
         self.assertLess(abs(beyond[0]), 30 * factors[0])
         self.assertAlmostEqual(beyond[0] / beyond[1], 10, delta=1)
 
