@@ -128,7 +128,7 @@ TEST(Sheet, IsTheSameOnAnyRanks)
     }
 }
 
-/// Forces on sheets never gain energy, whatever they are, and one moves another as the other moves it.
+/// Away from plates forces on sheets never gain energy, and one moves another as the other moves it.
 TEST(Sheet, MobilityIsSymmetricAndPositive)
 {
   const Grid grid{{16, 12, 14}, {0.3, -5, 2}, {0.5, 0.4, 0.3}, false};
