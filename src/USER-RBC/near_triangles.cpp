@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace rbc {
 
@@ -15,6 +17,8 @@ namespace {
 // distance over an edge's length below which the line to a point has no direction
 
 constexpr double TOUCHING = 1e-10;
+
+constexpr NearTriangles::Surface NO_SURFACE = std::numeric_limits<NearTriangles::Surface>::min();
 
 PlainVector at(const double *x, int n)
 {
@@ -47,8 +51,9 @@ void NearTriangles::Spheres::set(int n, PlainVector centre, double r, Surface s,
 
 void NearTriangles::build(int points, const Surface *surfaces, int corners, const double *x,
                           const std::vector<Triangle> &triangles, double range, double slack,
-                          double travel)
+                          double travel, SeesOwn sees_own)
 {
+  sees_own_ = std::move(sees_own);
   surfaces_.assign(surfaces, surfaces + points);
   triangles_ = triangles;
   reach_ = range + slack;
@@ -70,7 +75,7 @@ void NearTriangles::rebuild(const double *x)
   groups_.clear();
   candidates_.clear();
   for (int n = 0; n < static_cast<int>(surfaces_.size()); ++n) {
-    find_hits(bins, at(x, n), surfaces_[n], far);
+    find_hits(bins, at(x, n), sees_own_ ? NO_SURFACE : surfaces_[n], far);
     add_candidates(x, n);
   }
 }
@@ -116,7 +121,7 @@ void NearTriangles::sort_spheres(const SpatialBins &bins)
    triangles whose spheres are in reach of a point: those of a row of bins follow each other
 ------------------------------------------------------------------------- */
 
-void NearTriangles::find_hits(const SpatialBins &bins, PlainVector p, Surface own, double far)
+void NearTriangles::find_hits(const SpatialBins &bins, PlainVector p, Surface unseen, double far)
 {
   hits_.clear();
   const int j0 = bins.along(1, p.y - far), j1 = bins.along(1, p.y + far);
@@ -138,7 +143,7 @@ void NearTriangles::find_hits(const SpatialBins &bins, PlainVector p, Surface ow
         const Surface *const surface = &spheres_.surface[first];
         for_each(count, [&](int n) {
           const double apart2 = square(x[n] - p.x) + square(y[n] - p.y) + square(z[n] - p.z);
-          hit[n] = (apart2 <= square(reach_ + radius[n])) & (surface[n] != own);
+          hit[n] = (apart2 <= square(reach_ + radius[n])) & (surface[n] != unseen);
         });
         for (int n = 0; n < count; ++n)
           if (hit[n]) hits_.push_back(spheres_.triangle[first + n]);
@@ -152,6 +157,7 @@ void NearTriangles::add_candidates(const double *x, int point)
   const std::size_t first = candidates_.size();
   for (int t : hits_) {
     const Triangle &triangle = triangles_[t];
+    if (triangle.surface == surfaces_[point] && !sees_own_(point, t)) continue;
     const PlainVector a = at(x, triangle.corner[0]), b = at(x, triangle.corner[1]),
                       c = at(x, triangle.corner[2]);
     const double distance = norm(p - weighted_point(closest_point_weights(p, a, b, c), a, b, c));

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace rbc {
@@ -12,11 +13,14 @@ namespace rbc {
 class SpatialBins;
 
 /// Finds for points the closest point on each closed triangulated surface near them. Surfaces have numbers; a point
-/// belongs to one and does not see it. Triangles may be a part of a surface, as long as those that share a corner with one
+/// belongs to one and does not see it, or only some of its triangles. Triangles may be a part of a surface, as long as those that share a corner with one
 /// in reach are there. Positions are three numbers for each point, of points and corners in one array.
 class NearTriangles {
  public:
   using Surface = std::int64_t;
+
+  /// Whether a point sees a triangle of its own surface, which is given by its place in the list of triangles.
+  using SeesOwn = std::function<bool(int point, int triangle)>;
 
   struct Triangle {
     std::array<int, 3> corner;    ///< right-handed outward
@@ -34,9 +38,10 @@ class NearTriangles {
 
   /// Finds what comes within `range` of each other before neighbors have come nearer by `slack` and anything has moved by
   /// travel / 2. `surfaces[n]` is that of point n < points; triangles have their corners among the `corners` first
-  /// positions.
+  /// positions. Without `sees_own` points see nothing of their own surface.
   void build(int points, const Surface *surfaces, int corners, const double *x,
-             const std::vector<Triangle> &triangles, double range, double slack, double travel);
+             const std::vector<Triangle> &triangles, double range, double slack, double travel,
+             SeesOwn sees_own = {});
 
   /// The same again for other positions.
   void rebuild(const double *x);
@@ -79,6 +84,7 @@ class NearTriangles {
   double reach_ = 0, slack_ = 0, travel_ = 0;
   std::vector<Surface> surfaces_;    // of points
   std::vector<Triangle> triangles_;
+  SeesOwn sees_own_;
   std::vector<int> fan_begin_, fans_;    // triangles around each corner
   RelativeMotion motion_;
   int corners_ = 0;
@@ -92,7 +98,7 @@ class NearTriangles {
   void build_fans(int corners);
   double bound_triangles(const double *x);
   void sort_spheres(const SpatialBins &bins);
-  void find_hits(const SpatialBins &bins, PlainVector point, Surface own, double far);
+  void find_hits(const SpatialBins &bins, PlainVector point, Surface unseen, double far);
   void add_candidates(const double *x, int point);
   PlainVector outward(const double *x, const std::array<int, 3> &corner,
                       const std::array<double, 3> &weight, PlainVector face) const;

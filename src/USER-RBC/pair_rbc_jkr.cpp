@@ -16,6 +16,11 @@
 using namespace LAMMPS_NS;
 using rbc::TipContact;
 
+// of the cutoff: how far along its own surface a vertex sees nothing. A surface that turns by half a circle is as far from
+// itself as the cutoff after pi / 2 of it; the rest is for surfaces that are compressed.
+
+static constexpr double OWN_PATCH = 2.5;
+
 /* ---------------------------------------------------------------------- */
 
 PairRBCJKR::PairRBCJKR(LAMMPS *lmp) :
@@ -81,10 +86,17 @@ void PairRBCJKR::report_to(const std::shared_ptr<CollectiveStop> &driver)
 
 void PairRBCJKR::settings(int narg, char **arg)
 {
-  if (narg != 1) error->all(FLERR, "Pair_style rbc/jkr takes one argument, the cutoff");
+  if (narg < 1) utils::missing_cmd_args(FLERR, "pair_style rbc/jkr", error);
   cutoff = utils::numeric(FLERR, arg[0], false, lmp);
   if (!(cutoff > 0) || !std::isfinite(cutoff))
     error->all(FLERR, "Pair_style rbc/jkr cutoff {} must be > 0", arg[0]);
+  own_cells = false;
+  for (int at = 1; at < narg; at += 2) {
+    if (strcmp(arg[at], "self") != 0)
+      error->all(FLERR, at, "Unknown pair_style rbc/jkr keyword {}; allowed: self", arg[at]);
+    if (at + 1 == narg) utils::missing_cmd_args(FLERR, "pair_style rbc/jkr self", error);
+    own_cells = utils::logical(FLERR, arg[at + 1], false, lmp);
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -149,6 +161,7 @@ void PairRBCJKR::init_style()
   if (offset_flag || tail_flag)
     error->all(FLERR, "Pair rbc/jkr does not know pair_modify shift or tail: its energy is zero "
                       "where contact is lost");
+  if (own_cells) surfaces->see_own_cells(OWN_PATCH * cutoff);
   surfaces->init();
   check_cells();
   std::fill(tips.begin(), tips.end(),
@@ -307,7 +320,7 @@ void PairRBCJKR::compute(int eflag, int vflag)
 
 /* ----------------------------------------------------------------------
    a vertex stands for its share of area; its force returns to the corners of the triangle it meets. A pair of surfaces
-   counts from both sides, so each side has half of the energy.
+   counts from both sides, so each side has half of the energy. Through its inside a cell repels itself only.
 ------------------------------------------------------------------------- */
 
 void PairRBCJKR::add_forces(const std::vector<rbc::NearTriangles::Contact> &contacts)
@@ -318,12 +331,19 @@ void PairRBCJKR::add_forces(const std::vector<rbc::NearTriangles::Contact> &cont
   for (const auto &contact : contacts) {
     const int i = contact.point;
     const TipContact &surface = tip(atom->type[i], atom->type[contact.corner[0]]);
-    const double overlap = surface.tip_radius() - contact.gap;
-    if (!surface.touches() || overlap <= surface.separation()) continue;
+    const bool through_inside =
+        contact.gap < 0 && atom->molecule[i] == atom->molecule[contact.corner[0]];
+    const double gap = through_inside ? -contact.gap : contact.gap;
+    const double overlap = surface.tip_radius() - gap;
+    const double least = through_inside ? surface.equilibrium() : surface.separation();
+    if (!surface.touches() || overlap <= least) continue;
 
-    const auto [traction, energy] = surface.per_area(overlap);
+    auto [traction, energy] = surface.per_area(overlap);
+    if (through_inside) energy -= surface.per_area(least).energy;
     const double area = surfaces->area(i) / 2;
-    const double normal[3] = {contact.normal.x, contact.normal.y, contact.normal.z};
+    const double side = through_inside ? -1 : 1;
+    const double normal[3] = {side * contact.normal.x, side * contact.normal.y,
+                              side * contact.normal.z};
     const double size = area * traction;
     for (int d = 0; d < 3; ++d) atom->f[i][d] += size * normal[d];
     for (int c = 0; c < 3; ++c) {
@@ -332,7 +352,7 @@ void PairRBCJKR::add_forces(const std::vector<rbc::NearTriangles::Contact> &cont
       for (int d = 0; d < 3; ++d) at[d] -= contact.weight[c] * size * normal[d];
     }
     adhered_area += area;
-    if (evflag) tally(i, area * energy, size * contact.gap, normal);
+    if (evflag) tally(i, area * energy, size * gap, normal);
   }
   if (returned) return;
   comm->reverse_comm(this);
@@ -431,13 +451,17 @@ void PairRBCJKR::read_restart(FILE *fp)
 
 void PairRBCJKR::write_restart_settings(FILE *fp)
 {
-  fwrite(&cutoff, sizeof(double), 1, fp);
+  const double numbers[2] = {cutoff, double(own_cells)};
+  fwrite(numbers, sizeof(double), 2, fp);
 }
 
 void PairRBCJKR::read_restart_settings(FILE *fp)
 {
-  if (comm->me == 0) utils::sfread(FLERR, &cutoff, sizeof(double), 1, fp, nullptr, error);
-  MPI_Bcast(&cutoff, 1, MPI_DOUBLE, 0, world);
+  double numbers[2];
+  if (comm->me == 0) utils::sfread(FLERR, numbers, sizeof(double), 2, fp, nullptr, error);
+  MPI_Bcast(numbers, 2, MPI_DOUBLE, 0, world);
+  cutoff = numbers[0];
+  own_cells = numbers[1] != 0;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -48,6 +48,7 @@ class PairRBCJKR : public Pair {
   enum Kind { NONE, ADHESIVE, REPULSIVE };
 
   double cutoff = 0;
+  bool own_cells = false;    // cells touch themselves, too
   int **kind = nullptr;
   double **modulus = nullptr, **work = nullptr, **radius = nullptr;
 

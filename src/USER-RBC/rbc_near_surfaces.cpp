@@ -5,6 +5,7 @@
 #include "fix_rbc_membrane.h"
 #include "modify.h"
 #include "neighbor.h"
+#include "surface_patches.h"
 #include "update.h"
 
 #include <algorithm>
@@ -39,7 +40,8 @@ void NearSurfaces::init()
     std::vector<std::vector<int>> led(surface.size());
     for (std::size_t t = 0; t < surface.triangles.size(); ++t)
       led[surface.triangles[t][0]].push_back(static_cast<int>(t));
-    shapes.push_back({&surface, std::move(led)});
+    shapes.push_back({&surface, std::move(led), {}});
+    if (own_patch > 0) shapes.back().patches = rbc::surface_patches(surface, own_patch);
 
     const auto &molecules = membrane->local_cells().molecules();
     const auto &first = membrane->local_cells().first_atoms();
@@ -120,8 +122,10 @@ void NearSurfaces::build(double range, double slack_of_ghosts, double stale)
     if (cell_of(i)) points = i + 1;
   }
   const double travel = 2 * slack_of_ghosts;    // back and forth
+  rbc::NearTriangles::SeesOwn seen;
+  if (own_patch > 0) seen = [this](int i, int triangle) { return sees_own(i, triangle); };
   finder.build(points, owners.data(), atom->nlocal + atom->nghost, atom->x[0], triangles, range,
-               slack, travel);
+               slack, travel, seen);
 }
 
 /* ----------------------------------------------------------------------
@@ -131,6 +135,7 @@ void NearSurfaces::build(double range, double slack_of_ghosts, double stale)
 void NearSurfaces::collect_triangles(double longest)
 {
   triangles.clear();
+  numbers.clear();
   const int all = atom->nlocal + atom->nghost;
   for (int i = 0; i < all; ++i) {
     const Cell *const cell = cell_of(i);
@@ -140,9 +145,10 @@ void NearSurfaces::collect_triangles(double longest)
       const auto &corners = shape.surface->triangles[t];
       const int j = image_near(i, cell->first + corners[1], longest);
       const int k = image_near(i, cell->first + corners[2], longest);
-      if (j >= 0 && k >= 0 && are_near(j, k, longest))
+      if (j >= 0 && k >= 0 && are_near(j, k, longest)) {
         triangles.push_back({{i, j, k}, atom->molecule[i]});
-      else if (i < atom->nlocal)
+        if (own_patch > 0) numbers.push_back(t);
+      } else if (i < atom->nlocal)
         stop->report(fmt::format(
             "{}: a triangle of the cell with molecule ID {} near ({:.6g}, {:.6g}, {:.6g}) has an "
             "edge longer than {:.6g} at step {}; it is stretched too far, or raise the ghost "
@@ -151,6 +157,13 @@ void NearSurfaces::collect_triangles(double longest)
             update->ntimestep, comm->get_comm_cutoff()));
     }
   }
+}
+
+bool NearSurfaces::sees_own(int i, int triangle) const
+{
+  const Cell *const cell = cell_of(i);
+  const auto &patch = shapes[cell->shape].patches[atom->tag[i] - cell->first];
+  return !std::binary_search(patch.begin(), patch.end(), numbers[triangle]);
 }
 
 int NearSurfaces::image_near(int i, tagint id, double longest) const
@@ -204,5 +217,6 @@ double NearSurfaces::bytes() const
 {
   return static_cast<double>(finder.bytes() + built.bytes()) +
          triangles.capacity() * sizeof(rbc::NearTriangles::Triangle) +
+         numbers.capacity() * sizeof(int) +
          owners.capacity() * sizeof(rbc::NearTriangles::Surface) + cells.capacity() * sizeof(Cell);
 }

@@ -23,6 +23,9 @@ class NearSurfaces : protected Pointers {
 
   NearSurfaces(LAMMPS *lmp, std::string style);
 
+  /// Vertices see their own cell, too, but for the triangles nearer than `patch` along the edges of the cell at rest.
+  void see_own_cells(double patch) { own_patch = patch; }
+
   /// Collective, at the start of a run: finds the cells.
   void init();
 
@@ -37,7 +40,7 @@ class NearSurfaces : protected Pointers {
   /// and longest_edge() at least.
   void build(double range, double slack, double stale = 0);
 
-  /// Collective, for positions that ghosts have too: one contact for each owned vertex and other cell nearer to it than
+  /// Collective, for positions that ghosts have too: one contact for each owned vertex and cell seen nearer to it than
   /// `range`, at most that of build().
   const std::vector<Contact> &contacts(double range);
 
@@ -59,6 +62,8 @@ class NearSurfaces : protected Pointers {
   struct Shape {
     const rbc::SurfaceTemplate *surface;
     std::vector<std::vector<int>> led;    ///< triangles of which a vertex is the first corner
+    std::vector<std::vector<int>>
+        patches;    ///< triangles that a vertex does not see, if it sees its own cell
   };
 
   std::string style;
@@ -67,8 +72,10 @@ class NearSurfaces : protected Pointers {
   std::vector<Cell> cells;    ///< by molecule ID
   rbc::NearTriangles finder;
   std::vector<rbc::NearTriangles::Triangle> triangles;
+  std::vector<int> numbers;    ///< of triangles in their template, if vertices see their own cells
   std::vector<rbc::NearTriangles::Surface> owners;
   rbc::HeldPositions built;    ///< positions at build()
+  double own_patch = 0;        ///< 0: vertices do not see their own cells
   double allowed = 0;          ///< displacement since then
   double slack = 0;            ///< of the finder
 
@@ -76,6 +83,7 @@ class NearSurfaces : protected Pointers {
   const Shape *shape_of(int i) const;
   double longest_known_edge(double range, double slack) const;
   void collect_triangles(double longest);
+  bool sees_own(int i, int triangle) const;
   void check_moved();
   int image_near(int i, tagint id, double longest) const;
   bool are_near(int i, int j, double longest) const;

@@ -13,7 +13,10 @@ def contact(pair="pair_style rbc/jkr 0.5", coeff=ADHESIVE, **changes):
 
 
 CONTACT_ERRORS = {
-    "no cutoff": (contact("pair_style rbc/jkr"), ["rbc/jkr", "one argument", "cutoff"]),
+    "no cutoff": (contact("pair_style rbc/jkr"), ["pair_style rbc/jkr", "missing"]),
+    "unknown keyword": (contact("pair_style rbc/jkr 0.5 own yes"), ["pair_style rbc/jkr", "own", "allowed: self"]),
+    "self without value": (contact("pair_style rbc/jkr 0.5 self"), ["pair_style rbc/jkr self", "missing"]),
+    "self neither yes nor no": (contact("pair_style rbc/jkr 0.5 self maybe"), ["maybe"]),
     "cutoff zero": (contact("pair_style rbc/jkr 0"), ["rbc/jkr", "cutoff", "0", "> 0"]),
     "cutoff no number": (contact("pair_style rbc/jkr far"), ["'far'", "rbc/jkr"]),
     "cutoff below the range": (contact("pair_style rbc/jkr 0.38"),
