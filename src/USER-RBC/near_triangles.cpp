@@ -71,11 +71,15 @@ void NearTriangles::rebuild(const double *x)
   motion_.hold(x, corners_, std::max(all_corners + slack_, (all_corners + travel_) / 2));
   const SpatialBins bins(x, corners_, far);
   sort_spheres(bins);
+  find_owners(bins);
 
   groups_.clear();
   candidates_.clear();
   for (int n = 0; n < static_cast<int>(surfaces_.size()); ++n) {
-    find_hits(bins, at(x, n), sees_own_ ? NO_SURFACE : surfaces_[n], far);
+    const PlainVector point = at(x, n);
+    const Surface unseen = sees_own_ ? NO_SURFACE : surfaces_[n];
+    if (owners_around_[bins.of(point)].none_but(unseen)) continue;
+    find_hits(bins, point, unseen, far);
     add_candidates(x, n);
   }
 }
@@ -117,6 +121,31 @@ void NearTriangles::sort_spheres(const SpatialBins &bins)
                  static_cast<int>(t));
 }
 
+void NearTriangles::Owners::add(const Owners &other)
+{
+  lowest = std::min(lowest, other.lowest);
+  highest = std::max(highest, other.highest);
+}
+
+void NearTriangles::find_owners(const SpatialBins &bins)
+{
+  owners_.assign(bins.count(), {std::numeric_limits<Surface>::max(), NO_SURFACE});
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const Surface surface = triangles_[t].surface;
+    owners_[bin_of_[t]].add({surface, surface});
+  }
+  owners_around_ = owners_;
+  const int count[3] = {bins.count(0), bins.count(1), bins.count(2)};
+  merge_neighbors(count, owners_around_, scratch_);
+}
+
+bool NearTriangles::any_seen(int first_bin, int last_bin, Surface unseen) const
+{
+  for (int b = first_bin; b <= last_bin; ++b)
+    if (!owners_[b].none_but(unseen)) return true;
+  return false;
+}
+
 /* ----------------------------------------------------------------------
    triangles whose spheres are in reach of a point: those of a row of bins follow each other
 ------------------------------------------------------------------------- */
@@ -134,8 +163,10 @@ void NearTriangles::find_hits(const SpatialBins &bins, PlainVector p, Surface un
           square(far) - square(bins.distance(1, j, p.y)) - square(bins.distance(2, k, p.z));
       if (left < 0) continue;
       const double along = std::sqrt(left);
-      const int begin = bin_begin_[bins.index(bins.along(0, p.x - along), j, k)];
-      const int end = bin_begin_[bins.index(bins.along(0, p.x + along), j, k) + 1];
+      const int first_bin = bins.index(bins.along(0, p.x - along), j, k);
+      const int last_bin = bins.index(bins.along(0, p.x + along), j, k);
+      if (!any_seen(first_bin, last_bin, unseen)) continue;
+      const int begin = bin_begin_[first_bin], end = bin_begin_[last_bin + 1];
       for (int first = begin; first < end; first += most) {
         const int count = std::min(most, end - first);
         const double *const x = &spheres_.x[first], *const y = &spheres_.y[first],
@@ -274,8 +305,10 @@ std::size_t NearTriangles::bytes() const
   std::size_t integers = 0;
   for (const auto *numbers : {&fan_begin_, &fans_, &bin_begin_, &bin_of_, &next_, &hits_})
     integers += numbers->capacity();
-  return integers * sizeof(int) + surfaces_.capacity() * sizeof(Surface) +
-         triangles_.capacity() * sizeof(Triangle) + motion_.bytes() +
+  return integers * sizeof(int) +
+         (owners_.capacity() + owners_around_.capacity() + scratch_.capacity()) * sizeof(Owners) +
+         surfaces_.capacity() * sizeof(Surface) + triangles_.capacity() * sizeof(Triangle) +
+         motion_.bytes() +
          bounds_.capacity() *
              (sizeof(Sphere) + 4 * sizeof(double) + sizeof(Surface) + sizeof(int)) +
          groups_.capacity() * sizeof(Group) + candidates_.capacity() * sizeof(Candidate) +

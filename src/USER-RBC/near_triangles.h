@@ -81,6 +81,14 @@ class NearTriangles {
     void set(int n, PlainVector centre, double radius, Surface surface, int triangle);
   };
 
+  /// Of the surfaces that have spheres in a bin, the lowest and the highest.
+  struct Owners {
+    Surface lowest, highest;
+
+    void add(const Owners &other);
+    bool none_but(Surface surface) const { return lowest >= surface && highest <= surface; }
+  };
+
   double reach_ = 0, slack_ = 0, travel_ = 0;
   std::vector<Surface> surfaces_;    // of points
   std::vector<Triangle> triangles_;
@@ -90,6 +98,7 @@ class NearTriangles {
   int corners_ = 0;
   std::vector<Sphere> bounds_;    // of each triangle
   Spheres spheres_;
+  std::vector<Owners> owners_, owners_around_, scratch_;    // of each bin; with its neighbors
   std::vector<int> bin_begin_, bin_of_, next_, hits_;
   std::vector<Group> groups_;
   std::vector<Candidate> candidates_;
@@ -98,7 +107,9 @@ class NearTriangles {
   void build_fans(int corners);
   double bound_triangles(const double *x);
   void sort_spheres(const SpatialBins &bins);
+  void find_owners(const SpatialBins &bins);
   void find_hits(const SpatialBins &bins, PlainVector point, Surface unseen, double far);
+  bool any_seen(int first_bin, int last_bin, Surface unseen) const;
   void add_candidates(const double *x, int point);
   PlainVector outward(const double *x, const std::array<int, 3> &corner,
                       const std::array<double, 3> &weight, PlainVector face) const;

@@ -47,24 +47,11 @@ RelativeMotion::Differences RelativeMotion::differences(const double *x)
   if (!numbers) return {infinite, infinite};
 
   Differences differences;
-  merge_neighbors();
+  merge_neighbors(count_, extents_, merged_);
   differences.near = widest();
-  merge_neighbors();
+  merge_neighbors(count_, extents_, merged_);
   differences.wider = widest();
   return differences;
-}
-
-void RelativeMotion::merge_neighbors()
-{
-  for (std::size_t d = 0, stride = 1; d < 3; stride *= count_[d++]) {
-    merged_ = extents_;
-    for (std::size_t b = 0; b < extents_.size(); ++b) {
-      const int place = static_cast<int>(b / stride % count_[d]);
-      if (place > 0) merged_[b].add(extents_[b - stride]);
-      if (place < count_[d] - 1) merged_[b].add(extents_[b + stride]);
-    }
-    extents_.swap(merged_);
-  }
 }
 
 double RelativeMotion::widest() const

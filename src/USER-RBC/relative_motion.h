@@ -32,7 +32,6 @@ class RelativeMotion {
   std::vector<int> bin_;                    // of each point
   std::vector<Extent> extents_, merged_;    // of each bin; with its neighbors
 
-  void merge_neighbors();
   double widest() const;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace rbc {
 
@@ -55,5 +56,21 @@ class SpatialBins {
   double lo_[3], size_, inverse_;
   int count_[3];
 };
+
+/// Adds to each bin's value those of the bins around it, in boxes numbered as those of SpatialBins, `count` along each
+/// direction. `scratch` is of no use afterwards.
+template <typename Value>
+void merge_neighbors(const int (&count)[3], std::vector<Value> &values, std::vector<Value> &scratch)
+{
+  for (std::size_t d = 0, stride = 1; d < 3; stride *= count[d++]) {
+    scratch = values;
+    for (std::size_t b = 0; b < values.size(); ++b) {
+      const int place = static_cast<int>(b / stride % count[d]);
+      if (place > 0) scratch[b].add(values[b - stride]);
+      if (place < count[d] - 1) scratch[b].add(values[b + stride]);
+    }
+    values.swap(scratch);
+  }
+}
 
 }    // namespace rbc
