@@ -13,8 +13,6 @@
 #include "modify.h"
 #include "neighbor.h"
 #include "output.h"
-#include "rbc_region_enclosure.h"
-#include "region.h"
 #include "update.h"
 
 #include <algorithm>
@@ -24,13 +22,8 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
-static constexpr int MIN_CELLS = 4;
 static constexpr double MAX_COURANT = 1.0;
 static constexpr double PROBE_COURANT = 0.02;
-
-// on a rank: a message counts three values of each in an int
-
-static constexpr double MAX_CELLS = 0.25 * MAXSMALLINT;
 
 // reach of the widest kernel beyond the cell of an atom, staggering included
 
@@ -59,222 +52,17 @@ FixRBCFluid::FixRBCFluid(LAMMPS *lmp, int narg, char **arg) :
   if (!domain->zperiodic && (domain->boundary[2][0] != 1 || domain->boundary[2][1] != 1))
     error->all(FLERR, "Fix rbc/fluid requires z to be periodic or fixed (boundary p or f)");
 
-  parse(narg, arg);
+  settings = read_fluid_settings(lmp, narg, arg, drive);
+  inside = std::make_unique<FlowInside>(lmp, fmt::format("fix rbc/fluid {}", id), settings.inside);
   restart_global = has_inertia();
   std::copy_n(domain->boxlo, 3, box_lo);
   std::copy_n(domain->boxhi, 3, box_hi);
-  choose_grid();
-  check_grid();
   build_flow();
 }
 
 /* ---------------------------------------------------------------------- */
 
 FixRBCFluid::~FixRBCFluid() = default;
-
-/* ---------------------------------------------------------------------- */
-
-void FixRBCFluid::parse_vector(int iarg, int narg, char **arg, const char *keyword,
-                               FlowDrive::Vector &vector)
-{
-  if (iarg + 3 > narg)
-    utils::missing_cmd_args(FLERR, std::string("fix rbc/fluid ") + keyword, error);
-  for (int d = 0; d < 3; ++d) vector[d] = NumberOrVariable(lmp, arg[iarg + d]);
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixRBCFluid::parse(int narg, char **arg)
-{
-  bool wall_given[2] = {false, false};
-  regime.viscosity = regime.density = 0;
-  int iarg = 3;
-  const auto need = [&](int n, const char *keyword) {
-    if (iarg + n >= narg)
-      utils::missing_cmd_args(FLERR, std::string("fix rbc/fluid ") + keyword, error);
-  };
-  const auto positive = [&](int at, const char *keyword) {
-    const double value = utils::numeric(FLERR, arg[at], false, lmp);
-    if (!(value > 0))
-      error->all(FLERR, at, "Fix rbc/fluid {} value {} must be > 0", keyword, arg[at]);
-    return value;
-  };
-
-  while (iarg < narg) {
-    const std::string keyword = arg[iarg];
-    if (keyword == "dx") {
-      need(1, "dx");
-      target_spacing = positive(iarg + 1, "dx");
-      iarg += 2;
-    } else if (keyword == "grid") {
-      need(3, "grid");
-      for (int d = 0; d < 3; ++d) {
-        cells[d] = utils::inumeric(FLERR, arg[iarg + 1 + d], false, lmp);
-        if (cells[d] < MIN_CELLS)
-          error->all(FLERR, iarg + 1 + d,
-                     "Fix rbc/fluid grid value {} must be at least {} cells in every direction",
-                     arg[iarg + 1 + d], MIN_CELLS);
-      }
-      iarg += 4;
-    } else if (keyword == "viscosity") {
-      need(1, "viscosity");
-      regime.viscosity = positive(iarg + 1, "viscosity");
-      iarg += 2;
-    } else if (keyword == "density") {
-      need(1, "density");
-      regime.density = positive(iarg + 1, "density");
-      iarg += 2;
-    } else if (keyword == "inertia") {
-      need(1, "inertia");
-      const std::string value = arg[iarg + 1];
-      if (value == "none")
-        regime.inertia = fluid::Inertia::none;
-      else if (value == "unsteady")
-        regime.inertia = fluid::Inertia::unsteady;
-      else if (value == "convective")
-        regime.inertia = fluid::Inertia::convective;
-      else
-        error->all(FLERR, iarg + 1,
-                   "Unknown fix rbc/fluid inertia {}; allowed: none, unsteady, convective", value);
-      iarg += 2;
-    } else if (keyword == "scheme") {
-      need(1, "scheme");
-      const std::string value = arg[iarg + 1];
-      if (value == "coupled")
-        regime.scheme = fluid::Scheme::coupled;
-      else if (value == "projection")
-        regime.scheme = fluid::Scheme::projection;
-      else
-        error->all(FLERR, iarg + 1, "Unknown fix rbc/fluid scheme {}; allowed: coupled, projection",
-                   value);
-      iarg += 2;
-    } else if (keyword == "wall") {
-      need(1, "wall");
-      const std::string side = arg[iarg + 1];
-      if (side != "zlo" && side != "zhi")
-        error->all(FLERR, iarg + 1, "Fix rbc/fluid wall side {} must be zlo or zhi", side);
-      if (domain->zperiodic)
-        error->all(FLERR, iarg,
-                   "Fix rbc/fluid wall {} on a periodic side: z must be fixed (boundary p p f)",
-                   side);
-      parse_vector(iarg + 2, narg, arg, "wall", side == "zlo" ? drive.lower : drive.upper);
-      const NumberOrVariable &normal = (side == "zlo" ? drive.lower : drive.upper)[2];
-      if (normal.is_variable() || normal.value(lmp) != 0)
-        error->all(
-            FLERR, iarg + 4,
-            "Fix rbc/fluid wall {} velocity {} along z must be 0: plates move along themselves",
-            side, arg[iarg + 4]);
-      wall_given[side == "zhi"] = true;
-      iarg += 5;
-    } else if (keyword == "body") {
-      parse_vector(iarg + 1, narg, arg, "body", drive.body);
-      iarg += 4;
-    } else if (keyword == "mean") {
-      need(1, "mean");
-      const std::string value = arg[iarg + 1];
-      if (value == "x" || value == "y" || value == "z") {
-        need(2, "mean");
-        if (value == "z" && !domain->zperiodic)
-          error->all(
-              FLERR, iarg + 1,
-              "Fix rbc/fluid mean z needs a triply periodic box: plates let no flow through");
-        drive.hold_inside(value[0] - 'x', NumberOrVariable(lmp, arg[iarg + 2]));
-        iarg += 3;
-        continue;
-      }
-      if (!domain->zperiodic)
-        error->all(
-            FLERR, iarg,
-            "Fix rbc/fluid mean {} needs a triply periodic box: between plates the mean flow "
-            "follows from them; mean x or y V holds one by a body force",
-            value);
-      mean_given = true;
-      if (value == "force") {
-        free_mean = true;
-        iarg += 2;
-      } else {
-        free_mean = false;
-        parse_vector(iarg + 1, narg, arg, "mean", drive.mean);
-        iarg += 4;
-      }
-    } else if (keyword == "inside") {
-      need(1, "inside");
-      inside_id = arg[iarg + 1];
-      if (!domain->get_region_by_id(inside_id))
-        error->all(FLERR, iarg + 1, "Region ID {} for fix rbc/fluid inside does not exist",
-                   inside_id);
-      iarg += 2;
-    } else
-      error->all(FLERR, iarg,
-                 "Unknown fix rbc/fluid keyword {}; allowed: dx, grid, viscosity, density, "
-                 "inertia, scheme, wall, body, mean, inside",
-                 keyword);
-  }
-
-  walls = !domain->zperiodic;
-  if (walls && !(wall_given[0] && wall_given[1]))
-    error->all(FLERR, "Fix rbc/fluid needs wall zlo and wall zhi where z is not periodic");
-  if (!has_inertia() && regime.scheme == fluid::Scheme::projection)
-    error->all(FLERR,
-               "Fix rbc/fluid scheme projection needs inertia unsteady or convective: steady "
-               "flow has no step to split");
-  if (has_inertia() && drive.held_direction() >= 0)
-    error->all(FLERR, "Fix rbc/fluid mean {} needs inertia none", "xyz"[drive.held_direction()]);
-  regime.hold_mean = !has_inertia() || (mean_given && !free_mean);
-  if (target_spacing == 0 && cells[0] == 0) error->all(FLERR, "Fix rbc/fluid needs dx or grid");
-  if (target_spacing > 0 && cells[0] > 0)
-    error->all(FLERR, "Fix rbc/fluid takes either dx or grid, not both");
-  if (regime.viscosity == 0) error->all(FLERR, "Fix rbc/fluid needs viscosity");
-  if (regime.density == 0) error->all(FLERR, "Fix rbc/fluid needs density");
-}
-
-/* ----------------------------------------------------------------------
-   spacing as near to dx as a whole number of cells allows; where the grid is transformed, not coarser, and of
-   numbers of cells without large prime factors
-------------------------------------------------------------------------- */
-
-void FixRBCFluid::choose_grid()
-{
-  if (target_spacing == 0) return;
-  bool changed = false;
-  for (int d = 0; d < 3; ++d) {
-    const double wanted = std::round(domain->prd[d] / target_spacing);
-    const double largest = domain->prd[d] / MIN_CELLS;
-    if (wanted < MIN_CELLS)
-      error->all(
-          FLERR,
-          "Fix rbc/fluid dx {} leaves {} cells in {}; at least {} are needed (dx at most {})",
-          target_spacing, wanted, "xyz"[d], MIN_CELLS, largest);
-    cells[d] = static_cast<int>(std::min<double>(wanted, MAXSMALLINT));
-    if (cells[d] > MAX_CELLS || (walls && d == 2)) continue;
-    cells[d] = fluid::fast_size(cells[d]);
-    changed = changed || cells[d] != wanted;
-  }
-  if (changed && comm->me == 0)
-    utils::logmesg(
-        lmp,
-        "Fix rbc/fluid {}: grid of {} x {} x {} cells, spacing {:.6g} {:.6g} {:.6g}: dx {} "
-        "alone would give numbers of cells that are slow to transform\n",
-        id, cells[0], cells[1], cells[2], domain->prd[0] / cells[0], domain->prd[1] / cells[1],
-        domain->prd[2] / cells[2], target_spacing);
-}
-
-/* ----------------------------------------------------------------------
-   LAMMPS counts the cells of a rank in an int
-------------------------------------------------------------------------- */
-
-void FixRBCFluid::check_grid() const
-{
-  const double each = double(cells[0]) * cells[1] * cells[2] / comm->nprocs;
-  if (each > MAX_CELLS)
-    error->all(
-        FLERR,
-        "Fix rbc/fluid {} {} asks for {:.3g} cells per MPI task; at most {:.3g} are possible",
-        target_spacing > 0 ? "dx" : "grid",
-        target_spacing > 0 ? fmt::format("{}", target_spacing)
-                           : fmt::format("{} {} {}", cells[0], cells[1], cells[2]),
-        each, MAX_CELLS);
-}
 
 /* ----------------------------------------------------------------------
    without vertices none; a vertex leaves its subdomain by half the skin before atoms migrate and by half a cell more
@@ -284,6 +72,7 @@ void FixRBCFluid::check_grid() const
 int FixRBCFluid::layers_needed() const
 {
   if (!driven && !rigid) return 0;
+  const auto &cells = settings.cells;
   double layers = 0;
   for (int d = 0; d < 3; ++d)
     layers = std::max(layers, 0.5 * neighbor->skin / (domain->prd[d] / cells[d]) + cells_per_step);
@@ -295,7 +84,8 @@ int FixRBCFluid::layers_needed() const
 void FixRBCFluid::build_flow()
 {
   centred.free();
-  interior.reset();
+  inside->forget();
+  const auto &cells = settings.cells;
   grid = std::make_unique<Grid3d>(lmp, world, cells[0], cells[1], cells[2]);
   int lo[3], hi[3], outlo[3], outhi[3];
   grid->setup_grid(lo[0], hi[0], lo[1], hi[1], lo[2], hi[2], outlo[0], outhi[0], outlo[1], outhi[1],
@@ -310,11 +100,11 @@ void FixRBCFluid::build_flow()
     staggered.origin[d] = domain->boxlo[d];
     staggered.spacing[d] = domain->prd[d] / cells[d];
   }
-  staggered.walls = walls;
+  staggered.walls = settings.plates;
 
   ghost_layers = layers_needed();
   auto flow = std::make_unique<fluid::Flow>(staggered, fluid::Decomposition(world, brick),
-                                            ghost_layers, regime);
+                                            ghost_layers, settings.regime);
   if (current_flow) {
     earlier_traffic = traffic();
     flow->take_over(*current_flow);
@@ -345,7 +135,7 @@ void FixRBCFluid::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix rbc/fluid cannot be used with run_style respa");
   drive.check();
-  interior.reset();    // the region may be another one
+  inside->forget();    // the region may be another one
   if (has_inertia() && output->restart_flag) restarts.check_size(*current_flow);
 
   std::string driver;
@@ -359,7 +149,7 @@ void FixRBCFluid::init()
     driver = fix->id;
     cells_per_step = ib->courant();
     sheets = ib->has_sheets();
-    const double half = 0.5 * *std::min_element(cells.begin(), cells.end());
+    const double half = 0.5 * *std::min_element(settings.cells.begin(), settings.cells.end());
     if (cells_per_step > half)
       error->all(FLERR,
                  "Fix rbc/ib {} courant value {} must be <= {}, half the cells of fix rbc/fluid {} "
@@ -379,11 +169,12 @@ void FixRBCFluid::init()
 void FixRBCFluid::start_control()
 {
   if (drive.held_direction() < 0) return;
-  const double section = inside_volume() / domain->prd[drive.held_direction()];
+  const double section = inside->volume(*current_flow) / domain->prd[drive.held_direction()];
   const double velocity = PROBE_COURANT * smallest_spacing() / update->dt;
   const bool by_mean = holds_box_mean();
-  drive.start_control(
-      by_mean, by_mean ? velocity : 8 * MathConst::MY_PI * regime.viscosity * velocity / section);
+  drive.start_control(by_mean, by_mean ? velocity
+                                       : 8 * MathConst::MY_PI * settings.regime.viscosity *
+                                             velocity / section);
 }
 
 /* ----------------------------------------------------------------------
@@ -392,7 +183,7 @@ void FixRBCFluid::start_control()
 
 void FixRBCFluid::find_walls()
 {
-  balanced = !walls && !has_inertia() && !(mean_given && !free_mean);
+  balanced = !settings.plates && !has_inertia() && !settings.prescribed_mean;
   if (!rigid) rigid = std::make_unique<RigidWalls>(lmp);
   if (!rigid->connect(id, balanced)) {
     rigid.reset();
@@ -401,7 +192,7 @@ void FixRBCFluid::find_walls()
   if (rigid && has_inertia())
     error->all(FLERR, "{} needs fix rbc/fluid {} inertia none", rigid->first()->style_name(), id);
   if (rigid) return;
-  if (!has_inertia() && free_mean)
+  if (!has_inertia() && settings.free_mean)
     error->all(FLERR, "Fix rbc/fluid mean force needs inertia unsteady or convective, or a fix "
                       "rbc/wall: without them a net force has nothing to accelerate or to act on");
   if (!holds_box_mean() || drive.held_direction() >= 0 || comm->me != 0) return;
@@ -422,10 +213,10 @@ void FixRBCFluid::spread_walls(const std::array<double, 3> &others, CollectiveSt
   if (!rigid) return;
   std::array<double, 3> sum = others;
   fluid::Vec3 &body = current_flow->drive.body;
-  const double volume = inside_volume();
+  const double volume = inside->volume(*current_flow);
   if (comm->me == 0)
     for (int d = 0; d < 3; ++d) sum[d] += body[d] * volume;
-  if (interior) {
+  if (auto *const interior = inside->find(*current_flow)) {
     interior->add_force(*current_flow, body);
     body = {0, 0, 0};
   }
@@ -501,7 +292,7 @@ void FixRBCFluid::advance_alone()
 void FixRBCFluid::flow_changed()
 {
   ++version;
-  if (regime.inertia == fluid::Inertia::convective) check_courant();
+  if (settings.regime.inertia == fluid::Inertia::convective) check_courant();
 }
 
 /* ----------------------------------------------------------------------
@@ -560,14 +351,14 @@ void FixRBCFluid::drive_now()
 
 bool FixRBCFluid::correct_drive()
 {
-  drive.measured(measure_inside()[drive.held_direction()]);
+  drive.measured(mean_inside()[drive.held_direction()]);
   drive_now();
   return drive.probing();
 }
 
 void FixRBCFluid::begin_step(bool again)
 {
-  if (holds_inside() && !again) drive.measured(measure_inside()[drive.held_direction()]);
+  if (holds_inside() && !again) drive.measured(mean_inside()[drive.held_direction()]);
   drive.begin_step(again);
   if (rigid) rigid->begin_step(again);
 }
@@ -617,7 +408,7 @@ const fluid::FlowMeasures &FixRBCFluid::measure()
 
 double FixRBCFluid::compute_scalar()
 {
-  return measure().kinetic_energy_per_density * regime.density * force->mvv2e;
+  return measure().kinetic_energy_per_density * settings.regime.density * force->mvv2e;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -638,46 +429,17 @@ double FixRBCFluid::compute_vector(int n)
    of the region inside, or of the whole box: mean velocity, flow rates through sections, uniform force density, volume
 ------------------------------------------------------------------------- */
 
+const fluid::Vec3 &FixRBCFluid::mean_inside()
+{
+  return settings.inside.empty() ? measure().mean_velocity
+                                 : inside->mean_velocity(*current_flow, version);
+}
+
 double FixRBCFluid::inside_value(int n)
 {
-  if (n < 3) return measure_inside()[n];
-  if (n < 6) return measure_inside()[n - 3] * inside_volume() / domain->prd[n - 3];
-  return n < 9 ? driving_force(n - 6) : inside_volume();
-}
-
-void FixRBCFluid::find_interior()
-{
-  if (interior || inside_id.empty()) return;
-  Region *region = domain->get_region_by_id(inside_id);
-  if (!region)
-    error->all(FLERR, "Region ID {} for fix rbc/fluid {} inside does not exist", inside_id, id);
-  if (region->dynamic_check())
-    error->all(FLERR, "Region {} for fix rbc/fluid {} inside must not move", inside_id, id);
-  region->init();
-  const RegionEnclosure enclosure(region, domain);
-  interior = std::make_unique<fluid::Interior>(current_flow->grid(), current_flow->decomposition(),
-                                               [&](const fluid::Vec3 &x) {
-                                                 return enclosure.holds({x[0], x[1], x[2]});
-                                               });
-  inside_version = -1;
-  if (interior->volume() == 0)
-    error->all(FLERR, "Region {} for fix rbc/fluid {} inside holds nothing of the simulation box",
-               inside_id, id);
-}
-
-double FixRBCFluid::inside_volume()
-{
-  find_interior();
-  return interior ? interior->volume() : domain->prd[0] * domain->prd[1] * domain->prd[2];
-}
-
-const fluid::Vec3 &FixRBCFluid::measure_inside()
-{
-  find_interior();
-  if (!interior) return measure().mean_velocity;
-  if (inside_version != version) inside_velocity = interior->mean_velocity(*current_flow);
-  inside_version = version;
-  return inside_velocity;
+  if (n < 3) return mean_inside()[n];
+  if (n < 6) return mean_inside()[n - 3] * inside->volume(*current_flow) / domain->prd[n - 3];
+  return n < 9 ? driving_force(n - 6) : inside->volume(*current_flow);
 }
 
 /* ----------------------------------------------------------------------

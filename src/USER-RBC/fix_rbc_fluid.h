@@ -8,12 +8,13 @@ FixStyle(rbc/fluid,FixRBCFluid);
 #define LMP_FIX_RBC_FLUID_H
 
 #include "fix.h"
-#include "interior.h"
 #include "measures.h"
 #include "rbc_centred_data.h"
 #include "rbc_collective_stop.h"
 #include "rbc_flow_drive.h"
+#include "rbc_flow_inside.h"
 #include "rbc_flow_restart.h"
+#include "rbc_fluid_settings.h"
 
 #include <array>
 #include <memory>
@@ -44,7 +45,7 @@ class FixRBCFluid : public Fix {
   // used by fix rbc/wall and by fix rbc/ib, which drives the flow
 
   fluid::Flow &flow() { return *current_flow; }
-  bool has_inertia() const { return regime.inertia != fluid::Inertia::none; }
+  bool has_inertia() const { return settings.regime.inertia != fluid::Inertia::none; }
   void drive_at_setup();
   void drive_now();
   bool holds_inside() const { return drive.held_direction() >= 0; }
@@ -70,11 +71,7 @@ class FixRBCFluid : public Fix {
 
  private:
   double box_lo[3], box_hi[3];    // when the grid was chosen
-  std::array<int, 3> cells{};
-  double target_spacing = 0;
-  fluid::Regime regime;
-  bool walls = false;    // plates
-  bool mean_given = false, free_mean = false;
+  FluidSettings settings;
   bool balanced = false;    // the mean velocity follows from the forces of walls
   FlowDrive drive;
 
@@ -93,10 +90,7 @@ class FixRBCFluid : public Fix {
   fluid::FlowMeasures measures;
   bigint measured_version = -1;
 
-  std::string inside_id;                        // of a region; empty: the whole box
-  std::unique_ptr<fluid::Interior> interior;    // made when asked for
-  fluid::Vec3 inside_velocity{0, 0, 0};
-  bigint inside_version = -1;
+  std::unique_ptr<FlowInside> inside;
 
   CentredData centred;
   FlowRestart restarts;
@@ -105,10 +99,6 @@ class FixRBCFluid : public Fix {
   std::unique_ptr<RigidWalls> rigid;    // surfaces of atoms; null without them
   double fraction = 1;                  // of the step, at which the drive is
 
-  void parse(int, char **);
-  void parse_vector(int, int, char **, const char *, FlowDrive::Vector &);
-  void choose_grid();
-  void check_grid() const;
   void find_walls();
   int layers_needed() const;
   void build_flow();
@@ -117,11 +107,9 @@ class FixRBCFluid : public Fix {
   void report_too_fast(const std::array<double, 3> &x, double courant);
   fluid::Traffic traffic() const;
   const fluid::FlowMeasures &measure();
-  void find_interior();
-  double inside_volume();
   double inside_value(int);
-  const fluid::Vec3 &measure_inside();
-  bool holds_box_mean() const { return !walls && regime.hold_mean && !balanced; }
+  const fluid::Vec3 &mean_inside();
+  bool holds_box_mean() const { return !settings.plates && settings.regime.hold_mean && !balanced; }
   void start_control();
   double driving_force(int) const;
 };
