@@ -14,7 +14,7 @@ namespace {
 constexpr double farthest = 1.5;
 constexpr double sure = 0.8;
 
-// Of the slip allowed: where the residual is less than this part, what markers yield is all that is left.
+// Of the slip, or the one allowed: where the residual is less than this part, what markers yield is all that is left.
 constexpr double negligible = 0.1;
 
 // Of the use of directions in the next evaluation that counts.
@@ -160,7 +160,8 @@ RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
     reduce(largest, 3, MPI_MAX, flow);
     const double allowed = tolerance * largest[2];
     outcome.slip = largest[1] == 0 ? 0 : largest[1] / largest[2];
-    outcome.converged = largest[1] <= allowed || largest[0] <= negligible * allowed;
+    const double left_over = std::min(allowed, negligible * std::max(allowed, largest[1]));
+    outcome.converged = largest[1] <= allowed || largest[0] <= left_over;
     if (outcome.converged || outcome.solves >= max_solves) break;
 
     // change_: what is left after the best combination of the directions known, step_
@@ -177,7 +178,7 @@ RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
     double left[2]{largest_row(change_), largest_row(direction_)};
     reduce(left, 2, MPI_MAX, flow);
 
-    const bool enough = std::min(left[1], left[0] / negligible) <= sure * allowed;
+    const bool enough = left[1] <= sure * allowed || left[0] <= sure * left_over;
     double products[2]{0, 0};    // of the new direction: with what is left, with its response
     if (!enough) {
       precondition(flow, change_, direction_);
