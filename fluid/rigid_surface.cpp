@@ -15,7 +15,7 @@ constexpr double farthest = 1.5;
 constexpr double sure = 0.8;
 
 // Of the slip, or the one allowed: where the residual is less than this part, what markers yield is all that is left.
-constexpr double negligible = 0.1;
+constexpr double negligible = 0.3;
 
 // Of the use of directions in the next evaluation that counts.
 constexpr double memory = 0.95;

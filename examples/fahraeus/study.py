@@ -23,7 +23,7 @@ CASES = {    # variables of in.fahraeus
     "d20h30": {"diameter": 20, "hematocrit": 0.3, "length": 10.5, "dx": 0.5, "turns": 12},
     "d20h45": {"diameter": 20, "hematocrit": 0.45, "length": 10.5, "dx": 0.5, "turns": 12},
     "d40h30": {"diameter": 40, "hematocrit": 0.3, "length": 10.5, "dx": 0.5, "turns": 12},
-    "d40h45": {"diameter": 40, "hematocrit": 0.45, "length": 10.5, "dx": 0.5, "turns": 6},
+    "d40h45": {"diameter": 40, "hematocrit": 0.45, "length": 10.5, "dx": 0.5, "turns": 12},
     "d10h30": {"diameter": 10, "hematocrit": 0.3, "length": 16, "dx": 0.5, "turns": 12},
     "d20h30coarse": {"diameter": 20, "hematocrit": 0.3, "length": 10.8, "dx": 0.6, "turns": 12},
 }
