@@ -67,7 +67,7 @@ def pair_distances(cells, box, periodic, reach):
     for vertices, triangles in cells:
         corners = vertices[triangles]
         middles = corners.mean(axis=1)
-        size = np.linalg.norm(corners - middles[:, None], axis=2).max()
+        size = np.linalg.norm(corners - middles[:, None], axis=2).max(axis=1)
         centre = vertices.mean(axis=0)
         meshes.append((corners, middles, size, centre, np.linalg.norm(vertices - centre, axis=1).max()))
     images = list(itertools.product(*[(-1, 0, 1) if wraps else (0,) for wraps in periodic]))
@@ -83,16 +83,26 @@ def pair_distances(cells, box, periodic, reach):
                     continue
                 others, their_middles, their_size = meshes[other][:3]
                 shift = shifts[other]
-                close = size + their_size + reach
+                close = size.max() + their_size.max() + reach
                 mine = _inside(middles, their_middles + shift, close)
                 theirs = _inside(their_middles + shift, middles, close)
                 apart = middles[mine][:, None] - (their_middles[theirs] + shift)[None]
-                i, j = np.nonzero(np.einsum("ijk,ijk->ij", apart, apart) < close**2)
+                square = np.einsum("ijk,ijk->ij", apart, apart)
+                i, j = np.nonzero(square < close**2)
                 if len(i):
-                    least = triangle_distances(corners[mine[i]], others[theirs[j]] + shift).min()
+                    bound = np.sqrt(square[i, j]) - size[mine[i]] - their_size[theirs[j]]
+                    least = _least(corners[mine[i]], others[theirs[j]] + shift, bound)
                     if least < reach:
                         distances.append(least)
     return np.array(distances)
+
+
+def _least(first, second, bound, several=200):
+    """Least distance of pairs of triangles; none is below its bound."""
+    order = np.argsort(bound)
+    least = triangle_distances(first[order[:several]], second[order[:several]]).min()
+    rest = order[several:][bound[order[several:]] < least]
+    return min(least, triangle_distances(first[rest], second[rest]).min(initial=least))
 
 
 def _inside(points, others, margin):
