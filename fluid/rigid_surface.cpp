@@ -14,7 +14,7 @@ namespace {
 constexpr double farthest = 1.5;
 constexpr double sure = 0.8;
 
-// Of the slip, or the one allowed: where the residual is less than this part, what markers yield is all that is left.
+// Of a slip larger than the one allowed: where the residual is less than this part, it is that markers yield.
 constexpr double negligible = 0.3;
 
 // Of the use of directions in the next evaluation that counts.
@@ -160,8 +160,10 @@ RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
     reduce(largest, 3, MPI_MAX, flow);
     const double allowed = tolerance * largest[2];
     outcome.slip = largest[1] == 0 ? 0 : largest[1] / largest[2];
-    const double left_over = std::min(allowed, negligible * std::max(allowed, largest[1]));
-    outcome.converged = largest[1] <= allowed || largest[0] <= left_over;
+    const auto is_still = [allowed](double residual, double slip) {
+      return slip <= allowed || residual <= std::min(allowed, negligible * slip);
+    };
+    outcome.converged = is_still(largest[0], largest[1]);
     if (outcome.converged || outcome.solves >= max_solves) break;
 
     // change_: what is left after the best combination of the directions known, step_
@@ -178,7 +180,7 @@ RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
     double left[2]{largest_row(change_), largest_row(direction_)};
     reduce(left, 2, MPI_MAX, flow);
 
-    const bool enough = left[1] <= sure * allowed || left[0] <= sure * left_over;
+    const bool enough = is_still(left[0] / sure, left[1] / sure);
     double products[2]{0, 0};    // of the new direction: with what is left, with its response
     if (!enough) {
       precondition(flow, change_, direction_);

@@ -18,8 +18,9 @@ namespace fluid {
 /// unknown c more, with sum lambda = given, A lambda + c = U - u. Directions then have no net force.
 class RigidSurface {
  public:
-  double tolerance = 1e-3;    ///< largest slip relative to the largest speed
-  int max_solves = 100;       ///< of an evaluation, including the first
+  /// Largest slip relative to the largest speed; where markers yield by more, the largest residual.
+  double tolerance = 1e-3;
+  int max_solves = 100;    ///< of an evaluation, including the first
   int most_directions = 64;
   bool free_mean = false;
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace rbc {
@@ -17,8 +16,6 @@ namespace {
 // distance over an edge's length below which the line to a point has no direction
 
 constexpr double TOUCHING = 1e-10;
-
-constexpr NearTriangles::Surface NO_SURFACE = std::numeric_limits<NearTriangles::Surface>::min();
 
 PlainVector at(const double *x, int n)
 {
@@ -71,14 +68,15 @@ void NearTriangles::rebuild(const double *x)
   motion_.hold(x, corners_, std::max(all_corners + slack_, (all_corners + travel_) / 2));
   const SpatialBins bins(x, corners_, far);
   sort_spheres(bins);
-  find_owners(bins);
+  find_surface_ranges(bins);
 
   groups_.clear();
   candidates_.clear();
   for (int n = 0; n < static_cast<int>(surfaces_.size()); ++n) {
+    if (surfaces_[n] == NO_SURFACE) continue;
     const PlainVector point = at(x, n);
     const Surface unseen = sees_own_ ? NO_SURFACE : surfaces_[n];
-    if (owners_around_[bins.of(point)].none_but(unseen)) continue;
+    if (around_bin_[bins.of(point)].none_but(unseen)) continue;
     find_hits(bins, point, unseen, far);
     add_candidates(x, n);
   }
@@ -121,28 +119,28 @@ void NearTriangles::sort_spheres(const SpatialBins &bins)
                  static_cast<int>(t));
 }
 
-void NearTriangles::Owners::add(const Owners &other)
+void NearTriangles::SurfaceRange::add(const SurfaceRange &other)
 {
   lowest = std::min(lowest, other.lowest);
   highest = std::max(highest, other.highest);
 }
 
-void NearTriangles::find_owners(const SpatialBins &bins)
+void NearTriangles::find_surface_ranges(const SpatialBins &bins)
 {
-  owners_.assign(bins.count(), {std::numeric_limits<Surface>::max(), NO_SURFACE});
+  in_bin_.assign(bins.count(), {std::numeric_limits<Surface>::max(), NO_SURFACE});
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const Surface surface = triangles_[t].surface;
-    owners_[bin_of_[t]].add({surface, surface});
+    in_bin_[bin_of_[t]].add({surface, surface});
   }
-  owners_around_ = owners_;
+  around_bin_ = in_bin_;
   const int count[3] = {bins.count(0), bins.count(1), bins.count(2)};
-  merge_neighbors(count, owners_around_, scratch_);
+  merge_neighbors(count, around_bin_, scratch_);
 }
 
 bool NearTriangles::any_seen(int first_bin, int last_bin, Surface unseen) const
 {
   for (int b = first_bin; b <= last_bin; ++b)
-    if (!owners_[b].none_but(unseen)) return true;
+    if (!in_bin_[b].none_but(unseen)) return true;
   return false;
 }
 
@@ -306,7 +304,8 @@ std::size_t NearTriangles::bytes() const
   for (const auto *numbers : {&fan_begin_, &fans_, &bin_begin_, &bin_of_, &next_, &hits_})
     integers += numbers->capacity();
   return integers * sizeof(int) +
-         (owners_.capacity() + owners_around_.capacity() + scratch_.capacity()) * sizeof(Owners) +
+         (in_bin_.capacity() + around_bin_.capacity() + scratch_.capacity()) *
+             sizeof(SurfaceRange) +
          surfaces_.capacity() * sizeof(Surface) + triangles_.capacity() * sizeof(Triangle) +
          motion_.bytes() +
          bounds_.capacity() *

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace rbc {
@@ -13,11 +14,14 @@ namespace rbc {
 class SpatialBins;
 
 /// Finds for points the closest point on each closed triangulated surface near them. Surfaces have numbers; a point
-/// belongs to one and does not see it, or only some of its triangles. Triangles may be a part of a surface, as long as those that share a corner with one
-/// in reach are there. Positions are three numbers for each point, of points and corners in one array.
+/// belongs to one and does not see it, or only some of its triangles. Triangles may be a part of a surface, as long as
+/// those that share a corner with one in reach are there. Positions are three numbers for each point, of points and
+/// corners in one array.
 class NearTriangles {
  public:
   using Surface = std::int64_t;
+  static constexpr Surface NO_SURFACE =
+      std::numeric_limits<Surface>::min();    ///< a point of it sees nothing
 
   /// Whether a point sees a triangle of its own surface, which is given by its place in the list of triangles.
   using SeesOwn = std::function<bool(int point, int triangle)>;
@@ -81,11 +85,11 @@ class NearTriangles {
     void set(int n, PlainVector centre, double radius, Surface surface, int triangle);
   };
 
-  /// Of the surfaces that have spheres in a bin, the lowest and the highest.
-  struct Owners {
+  /// Of the surfaces that have spheres in a bin, the lowest and the highest number.
+  struct SurfaceRange {
     Surface lowest, highest;
 
-    void add(const Owners &other);
+    void add(const SurfaceRange &other);
     bool none_but(Surface surface) const { return lowest >= surface && highest <= surface; }
   };
 
@@ -98,7 +102,7 @@ class NearTriangles {
   int corners_ = 0;
   std::vector<Sphere> bounds_;    // of each triangle
   Spheres spheres_;
-  std::vector<Owners> owners_, owners_around_, scratch_;    // of each bin; with its neighbors
+  std::vector<SurfaceRange> in_bin_, around_bin_, scratch_;    // around: with the bins next to it
   std::vector<int> bin_begin_, bin_of_, next_, hits_;
   std::vector<Group> groups_;
   std::vector<Candidate> candidates_;
@@ -107,7 +111,7 @@ class NearTriangles {
   void build_fans(int corners);
   double bound_triangles(const double *x);
   void sort_spheres(const SpatialBins &bins);
-  void find_owners(const SpatialBins &bins);
+  void find_surface_ranges(const SpatialBins &bins);
   void find_hits(const SpatialBins &bins, PlainVector point, Surface unseen, double far);
   bool any_seen(int first_bin, int last_bin, Surface unseen) const;
   void add_candidates(const double *x, int point);

@@ -161,7 +161,7 @@ void PairRBCJKR::init_style()
   if (offset_flag || tail_flag)
     error->all(FLERR, "Pair rbc/jkr does not know pair_modify shift or tail: its energy is zero "
                       "where contact is lost");
-  if (own_cells) surfaces->see_own_cells(OWN_PATCH * cutoff);
+  surfaces->see_own_cells(own_cells ? OWN_PATCH * cutoff : 0);
   surfaces->init();
   check_cells();
   std::fill(tips.begin(), tips.end(),
@@ -281,6 +281,11 @@ double PairRBCJKR::init_one(int i, int j)
 void PairRBCJKR::setup()
 {
   if (comm->me != 0) return;
+  if (own_cells)
+    utils::logmesg(lmp,
+                   "Pair rbc/jkr: cells touch themselves, too, further than {:.6g} along their "
+                   "surface\n",
+                   OWN_PATCH * cutoff);
   for (int i = 1; i <= atom->ntypes; ++i)
     for (int j = i; j <= atom->ntypes; ++j) {
       if (!setflag[i][j] || !tip(i, j).touches()) continue;
@@ -335,11 +340,11 @@ void PairRBCJKR::add_forces(const std::vector<rbc::NearTriangles::Contact> &cont
         contact.gap < 0 && atom->molecule[i] == atom->molecule[contact.corner[0]];
     const double gap = through_inside ? -contact.gap : contact.gap;
     const double overlap = surface.tip_radius() - gap;
-    const double least = through_inside ? surface.equilibrium() : surface.separation();
-    if (!surface.touches() || overlap <= least) continue;
+    const double detachment = through_inside ? surface.equilibrium() : surface.separation();
+    if (!surface.touches() || overlap <= detachment) continue;
 
     auto [traction, energy] = surface.per_area(overlap);
-    if (through_inside) energy -= surface.per_area(least).energy;
+    if (through_inside) energy += work[atom->type[i]][atom->type[i]];
     const double area = surfaces->area(i) / 2;
     const double side = through_inside ? -1 : 1;
     const double normal[3] = {side * contact.normal.x, side * contact.normal.y,
@@ -351,7 +356,7 @@ void PairRBCJKR::add_forces(const std::vector<rbc::NearTriangles::Contact> &cont
           returned ? atom->f[contact.corner[c]] : &reactions[3 * std::size_t(contact.corner[c])];
       for (int d = 0; d < 3; ++d) at[d] -= contact.weight[c] * size * normal[d];
     }
-    adhered_area += area;
+    if (!through_inside) adhered_area += area;
     if (evflag) tally(i, area * energy, size * gap, normal);
   }
   if (returned) return;

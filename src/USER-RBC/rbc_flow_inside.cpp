@@ -31,7 +31,6 @@ fluid::Interior *FlowInside::find(const fluid::Flow &flow)
                                                 [&](const fluid::Vec3 &x) {
                                                   return enclosure.holds({x[0], x[1], x[2]});
                                                 });
-  version_ = -1;
   if (interior_->volume() == 0)
     error->all(FLERR, "Region {} for {} inside holds nothing of the simulation box", region_id_,
                style_);

@@ -17,7 +17,11 @@ class FlowInside : protected Pointers {
   FlowInside(LAMMPS *lmp, std::string style, std::string region);
 
   /// The region, or the decomposition of the flow, may be another.
-  void forget() { interior_.reset(); }
+  void forget()
+  {
+    interior_.reset();
+    version_ = -1;
+  }
 
   /// Collective, like what follows.
   double volume(const fluid::Flow &flow);

@@ -3,6 +3,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "fourier.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,9 +18,11 @@ constexpr int MIN_CELLS = 4;
 
 constexpr double MAX_CELLS = 0.25 * MAXSMALLINT;
 
-class Reader : protected Pointers, public FluidSettings {
+class Reader : protected Pointers {
  public:
   Reader(LAMMPS *lmp, const char *id, FlowDrive &drive) : Pointers(lmp), id(id), drive(drive) {}
+
+  FluidSettings settings;
 
   void parse(int narg, char **arg);
   void choose_grid();
@@ -49,7 +52,7 @@ void Reader::parse(int narg, char **arg)
 {
   bool wall_given[2] = {false, false};
   bool mean_given = false;
-  regime.viscosity = regime.density = 0;
+  settings.regime.viscosity = settings.regime.density = 0;
   int iarg = 3;
   const auto need = [&](int n, const char *keyword) {
     if (iarg + n >= narg)
@@ -71,8 +74,8 @@ void Reader::parse(int narg, char **arg)
     } else if (keyword == "grid") {
       need(3, "grid");
       for (int d = 0; d < 3; ++d) {
-        cells[d] = utils::inumeric(FLERR, arg[iarg + 1 + d], false, lmp);
-        if (cells[d] < MIN_CELLS)
+        settings.cells[d] = utils::inumeric(FLERR, arg[iarg + 1 + d], false, lmp);
+        if (settings.cells[d] < MIN_CELLS)
           error->all(FLERR, iarg + 1 + d,
                      "Fix rbc/fluid grid value {} must be at least {} cells in every direction",
                      arg[iarg + 1 + d], MIN_CELLS);
@@ -80,21 +83,21 @@ void Reader::parse(int narg, char **arg)
       iarg += 4;
     } else if (keyword == "viscosity") {
       need(1, "viscosity");
-      regime.viscosity = positive(iarg + 1, "viscosity");
+      settings.regime.viscosity = positive(iarg + 1, "viscosity");
       iarg += 2;
     } else if (keyword == "density") {
       need(1, "density");
-      regime.density = positive(iarg + 1, "density");
+      settings.regime.density = positive(iarg + 1, "density");
       iarg += 2;
     } else if (keyword == "inertia") {
       need(1, "inertia");
       const std::string value = arg[iarg + 1];
       if (value == "none")
-        regime.inertia = fluid::Inertia::none;
+        settings.regime.inertia = fluid::Inertia::none;
       else if (value == "unsteady")
-        regime.inertia = fluid::Inertia::unsteady;
+        settings.regime.inertia = fluid::Inertia::unsteady;
       else if (value == "convective")
-        regime.inertia = fluid::Inertia::convective;
+        settings.regime.inertia = fluid::Inertia::convective;
       else
         error->all(FLERR, iarg + 1,
                    "Unknown fix rbc/fluid inertia {}; allowed: none, unsteady, convective", value);
@@ -103,9 +106,9 @@ void Reader::parse(int narg, char **arg)
       need(1, "scheme");
       const std::string value = arg[iarg + 1];
       if (value == "coupled")
-        regime.scheme = fluid::Scheme::coupled;
+        settings.regime.scheme = fluid::Scheme::coupled;
       else if (value == "projection")
-        regime.scheme = fluid::Scheme::projection;
+        settings.regime.scheme = fluid::Scheme::projection;
       else
         error->all(FLERR, iarg + 1, "Unknown fix rbc/fluid scheme {}; allowed: coupled, projection",
                    value);
@@ -152,18 +155,19 @@ void Reader::parse(int narg, char **arg)
             value);
       mean_given = true;
       if (value == "force") {
-        free_mean = true;
+        settings.free_mean = true;
         iarg += 2;
       } else {
-        free_mean = false;
+        settings.free_mean = false;
         parse_vector(iarg + 1, narg, arg, "mean", drive.mean);
         iarg += 4;
       }
     } else if (keyword == "inside") {
       need(1, "inside");
-      inside = arg[iarg + 1];
-      if (!domain->get_region_by_id(inside))
-        error->all(FLERR, iarg + 1, "Region ID {} for fix rbc/fluid inside does not exist", inside);
+      settings.inside = arg[iarg + 1];
+      if (!domain->get_region_by_id(settings.inside))
+        error->all(FLERR, iarg + 1, "Region ID {} for fix rbc/fluid inside does not exist",
+                   settings.inside);
       iarg += 2;
     } else
       error->all(FLERR, iarg,
@@ -172,23 +176,24 @@ void Reader::parse(int narg, char **arg)
                  keyword);
   }
 
-  plates = !domain->zperiodic;
-  if (plates && !(wall_given[0] && wall_given[1]))
+  settings.plates = !domain->zperiodic;
+  if (settings.plates && !(wall_given[0] && wall_given[1]))
     error->all(FLERR, "Fix rbc/fluid needs wall zlo and wall zhi where z is not periodic");
-  const bool inertia = regime.inertia != fluid::Inertia::none;
-  if (!inertia && regime.scheme == fluid::Scheme::projection)
+  const bool inertia = settings.regime.inertia != fluid::Inertia::none;
+  if (!inertia && settings.regime.scheme == fluid::Scheme::projection)
     error->all(FLERR,
                "Fix rbc/fluid scheme projection needs inertia unsteady or convective: steady "
                "flow has no step to split");
   if (inertia && drive.held_direction() >= 0)
     error->all(FLERR, "Fix rbc/fluid mean {} needs inertia none", "xyz"[drive.held_direction()]);
-  prescribed_mean = mean_given && !free_mean;
-  regime.hold_mean = !inertia || prescribed_mean;
-  if (target_spacing == 0 && cells[0] == 0) error->all(FLERR, "Fix rbc/fluid needs dx or grid");
-  if (target_spacing > 0 && cells[0] > 0)
+  settings.prescribed_mean = mean_given && !settings.free_mean;
+  settings.regime.hold_mean = !inertia || settings.prescribed_mean;
+  if (target_spacing == 0 && settings.cells[0] == 0)
+    error->all(FLERR, "Fix rbc/fluid needs dx or grid");
+  if (target_spacing > 0 && settings.cells[0] > 0)
     error->all(FLERR, "Fix rbc/fluid takes either dx or grid, not both");
-  if (regime.viscosity == 0) error->all(FLERR, "Fix rbc/fluid needs viscosity");
-  if (regime.density == 0) error->all(FLERR, "Fix rbc/fluid needs density");
+  if (settings.regime.viscosity == 0) error->all(FLERR, "Fix rbc/fluid needs viscosity");
+  if (settings.regime.density == 0) error->all(FLERR, "Fix rbc/fluid needs density");
 }
 
 /* ----------------------------------------------------------------------
@@ -208,18 +213,19 @@ void Reader::choose_grid()
           FLERR,
           "Fix rbc/fluid dx {} leaves {} cells in {}; at least {} are needed (dx at most {})",
           target_spacing, wanted, "xyz"[d], MIN_CELLS, largest);
-    cells[d] = static_cast<int>(std::min<double>(wanted, MAXSMALLINT));
-    if (cells[d] > MAX_CELLS || (plates && d == 2)) continue;
-    cells[d] = fluid::fast_size(cells[d]);
-    changed = changed || cells[d] != wanted;
+    settings.cells[d] = static_cast<int>(std::min<double>(wanted, MAXSMALLINT));
+    if (settings.cells[d] > MAX_CELLS || (settings.plates && d == 2)) continue;
+    settings.cells[d] = fluid::fast_size(settings.cells[d]);
+    changed = changed || settings.cells[d] != wanted;
   }
   if (changed && comm->me == 0)
     utils::logmesg(
         lmp,
         "Fix rbc/fluid {}: grid of {} x {} x {} cells, spacing {:.6g} {:.6g} {:.6g}: dx {} "
         "alone would give numbers of cells that are slow to transform\n",
-        id, cells[0], cells[1], cells[2], domain->prd[0] / cells[0], domain->prd[1] / cells[1],
-        domain->prd[2] / cells[2], target_spacing);
+        id, settings.cells[0], settings.cells[1], settings.cells[2],
+        domain->prd[0] / settings.cells[0], domain->prd[1] / settings.cells[1],
+        domain->prd[2] / settings.cells[2], target_spacing);
 }
 
 /* ----------------------------------------------------------------------
@@ -228,14 +234,16 @@ void Reader::choose_grid()
 
 void Reader::check_grid() const
 {
-  const double each = double(cells[0]) * cells[1] * cells[2] / comm->nprocs;
+  const double each =
+      double(settings.cells[0]) * settings.cells[1] * settings.cells[2] / comm->nprocs;
   if (each > MAX_CELLS)
     error->all(
         FLERR,
         "Fix rbc/fluid {} {} asks for {:.3g} cells per MPI task; at most {:.3g} are possible",
         target_spacing > 0 ? "dx" : "grid",
-        target_spacing > 0 ? fmt::format("{}", target_spacing)
-                           : fmt::format("{} {} {}", cells[0], cells[1], cells[2]),
+        target_spacing > 0
+            ? fmt::format("{}", target_spacing)
+            : fmt::format("{} {} {}", settings.cells[0], settings.cells[1], settings.cells[2]),
         each, MAX_CELLS);
 }
 
@@ -249,5 +257,5 @@ FluidSettings LAMMPS_NS::read_fluid_settings(LAMMPS *lmp, int narg, char **arg, 
   reader.parse(narg, arg);
   reader.choose_grid();
   reader.check_grid();
-  return reader;
+  return reader.settings;
 }

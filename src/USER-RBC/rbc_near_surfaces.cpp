@@ -41,7 +41,7 @@ void NearSurfaces::init()
     for (std::size_t t = 0; t < surface.triangles.size(); ++t)
       led[surface.triangles[t][0]].push_back(static_cast<int>(t));
     shapes.push_back({&surface, std::move(led), {}});
-    if (own_patch > 0) shapes.back().patches = rbc::surface_patches(surface, own_patch);
+    if (own_patch > 0) shapes.back().patches = own_patches(surface);
 
     const auto &molecules = membrane->local_cells().molecules();
     const auto &first = membrane->local_cells().first_atoms();
@@ -56,6 +56,19 @@ void NearSurfaces::init()
   }
   if (shapes.empty())
     error->all(FLERR, "{} needs a fix rbc/membrane: it knows the cells and their triangles", style);
+}
+
+std::vector<std::vector<int>> NearSurfaces::own_patches(const rbc::SurfaceTemplate &surface) const
+{
+  auto patches = rbc::surface_patches(surface, own_patch);
+  const bool see_something =
+      std::any_of(patches.begin(), patches.end(), [&surface](const auto &patch) {
+        return patch.size() < surface.triangles.size();
+      });
+  if (!see_something && comm->me == 0)
+    error->warning(FLERR, "{} self: cells are too small to see themselves beyond {:.6g}", style,
+                   own_patch);
+  return patches;
 }
 
 double NearSurfaces::longest_edge() const
@@ -115,16 +128,17 @@ void NearSurfaces::build(double range, double slack_of_ghosts, double stale)
   slack = FINER * slack_of_ghosts;
   collect_triangles(longest_known_edge(range, slack_of_ghosts + stale));
   stop->check();
-  owners.resize(atom->nlocal);
+  molecules.assign(atom->nlocal, rbc::NearTriangles::NO_SURFACE);
   int points = 0;
   for (int i = 0; i < atom->nlocal; ++i) {
-    owners[i] = atom->molecule[i];
-    if (cell_of(i)) points = i + 1;
+    if (!cell_of(i)) continue;
+    molecules[i] = atom->molecule[i];
+    points = i + 1;
   }
   const double travel = 2 * slack_of_ghosts;    // back and forth
   rbc::NearTriangles::SeesOwn seen;
   if (own_patch > 0) seen = [this](int i, int triangle) { return sees_own(i, triangle); };
-  finder.build(points, owners.data(), atom->nlocal + atom->nghost, atom->x[0], triangles, range,
+  finder.build(points, molecules.data(), atom->nlocal + atom->nghost, atom->x[0], triangles, range,
                slack, travel, seen);
 }
 
@@ -135,7 +149,7 @@ void NearSurfaces::build(double range, double slack_of_ghosts, double stale)
 void NearSurfaces::collect_triangles(double longest)
 {
   triangles.clear();
-  numbers.clear();
+  template_triangle.clear();
   const int all = atom->nlocal + atom->nghost;
   for (int i = 0; i < all; ++i) {
     const Cell *const cell = cell_of(i);
@@ -147,7 +161,7 @@ void NearSurfaces::collect_triangles(double longest)
       const int k = image_near(i, cell->first + corners[2], longest);
       if (j >= 0 && k >= 0 && are_near(j, k, longest)) {
         triangles.push_back({{i, j, k}, atom->molecule[i]});
-        if (own_patch > 0) numbers.push_back(t);
+        if (own_patch > 0) template_triangle.push_back(t);
       } else if (i < atom->nlocal)
         stop->report(fmt::format(
             "{}: a triangle of the cell with molecule ID {} near ({:.6g}, {:.6g}, {:.6g}) has an "
@@ -163,7 +177,7 @@ bool NearSurfaces::sees_own(int i, int triangle) const
 {
   const Cell *const cell = cell_of(i);
   const auto &patch = shapes[cell->shape].patches[atom->tag[i] - cell->first];
-  return !std::binary_search(patch.begin(), patch.end(), numbers[triangle]);
+  return !std::binary_search(patch.begin(), patch.end(), template_triangle[triangle]);
 }
 
 int NearSurfaces::image_near(int i, tagint id, double longest) const
@@ -215,8 +229,13 @@ void NearSurfaces::check_moved()
 
 double NearSurfaces::bytes() const
 {
-  return static_cast<double>(finder.bytes() + built.bytes()) +
+  double patches = 0;
+  for (const Shape &shape : shapes)
+    for (const auto &patch : shape.patches)
+      patches += sizeof(patch) + patch.capacity() * sizeof(int);
+  return static_cast<double>(finder.bytes() + built.bytes()) + patches +
          triangles.capacity() * sizeof(rbc::NearTriangles::Triangle) +
-         numbers.capacity() * sizeof(int) +
-         owners.capacity() * sizeof(rbc::NearTriangles::Surface) + cells.capacity() * sizeof(Cell);
+         template_triangle.capacity() * sizeof(int) +
+         molecules.capacity() * sizeof(rbc::NearTriangles::Surface) +
+         cells.capacity() * sizeof(Cell);
 }

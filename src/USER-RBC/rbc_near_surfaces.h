@@ -14,10 +14,10 @@
 
 namespace LAMMPS_NS {
 
-/// The vertices that this rank owns and the surfaces of other cells near them, of all fixes rbc/membrane.
+/// The vertices that this rank owns and the surfaces of cells near them, of all fixes rbc/membrane.
 class NearSurfaces : protected Pointers {
  public:
-  /// A vertex and the closest point of another cell's surface. Points and corners are local indices of atoms; corners
+  /// A vertex and the closest point of a surface that it sees. Points and corners are local indices of atoms; corners
   /// may be ghosts.
   using Contact = rbc::NearTriangles::Contact;
 
@@ -72,18 +72,19 @@ class NearSurfaces : protected Pointers {
   std::vector<Cell> cells;    ///< by molecule ID
   rbc::NearTriangles finder;
   std::vector<rbc::NearTriangles::Triangle> triangles;
-  std::vector<int> numbers;    ///< of triangles in their template, if vertices see their own cells
-  std::vector<rbc::NearTriangles::Surface> owners;
-  rbc::HeldPositions built;    ///< positions at build()
-  double own_patch = 0;        ///< 0: vertices do not see their own cells
-  double allowed = 0;          ///< displacement since then
-  double slack = 0;            ///< of the finder
+  std::vector<int> template_triangle;    ///< of each, if vertices see their own cells
+  std::vector<rbc::NearTriangles::Surface> molecules;    ///< of vertices; other atoms see nothing
+  rbc::HeldPositions built;                              ///< positions at build()
+  double own_patch = 0;                                  ///< 0: vertices do not see their own cells
+  double allowed = 0;                                    ///< displacement since then
+  double slack = 0;                                      ///< of the finder
 
   const Cell *cell_of(int i) const;
   const Shape *shape_of(int i) const;
   double longest_known_edge(double range, double slack) const;
   void collect_triangles(double longest);
   bool sees_own(int i, int triangle) const;
+  std::vector<std::vector<int>> own_patches(const rbc::SurfaceTemplate &surface) const;
   void check_moved();
   int image_near(int i, tagint id, double longest) const;
   bool are_near(int i, int j, double longest) const;

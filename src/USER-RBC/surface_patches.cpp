@@ -1,8 +1,10 @@
 #include "surface_patches.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <queue>
+#include <utility>
 
 namespace rbc {
 

@@ -123,6 +123,86 @@ TEST_P(Finder, RebuiltForOtherPositions)
   }
 }
 
+TEST_P(Finder, SeesWhatItMayOfItsOwnSurface)
+{
+  Cells cells(GetParam());
+  const auto far = [rest = cells](int point, int triangle) {
+    for (int corner : rest.triangles[triangle].corner)
+      if ((rest.x[corner] - rest.x[point]).norm() < 1.1 * range) return false;
+    return true;
+  };
+  NearTriangles finder;
+  finder.build(cells.size(), cells.surfaces.data(), cells.size(), cells.data(), cells.triangles,
+               2 * range, slack, travel, far);
+  for (bool rebuilt : {false, true}) {
+    cells.move(0.4 * slack, 5);
+    if (rebuilt) finder.rebuild(cells.data());
+    std::map<int, double> found;
+    for (const auto &contact : finder.contacts(cells.data(), 2 * range, rebuilt ? 0 : 0.8 * slack))
+      if (cells.surfaces[contact.point] == cells.surfaces[contact.corner[0]]) {
+        EXPECT_TRUE(found.emplace(contact.point, std::abs(contact.gap)).second);
+      }
+    for (int n = 0; n < cells.size(); ++n) {
+      double nearest = HUGE_VAL;
+      for (std::size_t t = 0; t < cells.triangles.size(); ++t) {
+        const auto &[corner, surface] = cells.triangles[t];
+        if (surface == cells.surfaces[n] && far(n, static_cast<int>(t)))
+          nearest = std::min(
+              nearest, (cells.x[n] - test::closest_point(cells.x[n], cells.x[corner[0]],
+                                                         cells.x[corner[1]], cells.x[corner[2]]))
+                           .norm());
+      }
+      ASSERT_EQ(nearest < 2 * range, found.count(n) == 1) << n;
+      if (nearest < 2 * range) {
+        EXPECT_NEAR(found[n], nearest, 1e-12);
+      }
+    }
+    EXPECT_GT(found.size(), 100u);
+  }
+}
+
+// Most points have nothing near them, some only in a bin that shares no more than a corner with theirs.
+TEST(Finder, SmallSurfacesFarApart)
+{
+  const test::Mesh mesh = test::icosphere(1);
+  test::Random random(3);
+  std::vector<Vec3> x;
+  std::vector<NearTriangles::Triangle> triangles;
+  std::vector<NearTriangles::Surface> surfaces;
+  constexpr int count = 300;
+  for (int m = 0; m < count; ++m) {
+    const int first = static_cast<int>(x.size());
+    const Vec3 place = 2.5 * (random.direction() + random.direction() + random.direction());
+    for (const Vec3 &v : mesh.vertices) x.push_back(0.1 * v + place);
+    for (const auto &t : mesh.triangles)
+      triangles.push_back({{t[0] + first, t[1] + first, t[2] + first}, m - count / 2});
+    surfaces.resize(x.size(), m - count / 2);
+  }
+  x.push_back(x[0] + Vec3(0.05, 0, 0));    // has no surface
+  surfaces.push_back(NearTriangles::NO_SURFACE);
+  const int size = static_cast<int>(x.size());
+  NearTriangles finder;
+  finder.build(size, surfaces.data(), size, x[0].data(), triangles, range, slack, travel);
+  std::map<std::pair<int, NearTriangles::Surface>, double> found;
+  for (const auto &contact : finder.contacts(x[0].data(), range, 0))
+    found[{contact.point, surfaces[contact.corner[0]]}] = std::abs(contact.gap);
+
+  std::map<std::pair<int, NearTriangles::Surface>, double> expected;
+  for (int n = 0; n < size - 1; ++n)
+    for (const auto &[corner, surface] : triangles) {
+      if (surface == surfaces[n] || (x[corner[0]] - x[n]).norm() > 1) continue;
+      const double distance =
+          (x[n] - test::closest_point(x[n], x[corner[0]], x[corner[1]], x[corner[2]])).norm();
+      if (distance >= range) continue;
+      double &nearest = expected.emplace(std::make_pair(n, surface), distance).first->second;
+      nearest = std::min(nearest, distance);
+    }
+  ASSERT_GT(expected.size(), 100u);
+  ASSERT_LT(expected.size(), x.size() / 2);
+  ASSERT_EQ(found.size(), expected.size());
+  for (const auto &[pair, distance] : expected) EXPECT_NEAR(found[pair], distance, 1e-12);
+}
+
 INSTANTIATE_TEST_SUITE_P(Shapes, Finder, testing::Values(1, 2, 3, 4, 5, 6));
 
 TEST(Finder, PointOnTheSurface)

@@ -2,26 +2,43 @@
 
 #include "test_support.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace {
 
-// Paths along edges are longer than great circles, by up to 2 / sqrt(3) in a plane of equal triangles.
-TEST(SurfacePatches, LieBetweenTwoCaps)
+/// Lengths of the shortest paths between all vertices (Floyd and Warshall).
+Eigen::MatrixXd paths(const rbc::SurfaceTemplate &surface)
 {
-  const test::Mesh mesh = test::icosphere(8);
-  const rbc::SurfaceTemplate sphere(mesh.vertices, mesh.triangles);
-  const double distance = 0.7;
-  const auto patches = rbc::surface_patches(sphere, distance);
-  ASSERT_EQ(patches.size(), mesh.vertices.size());
-  for (std::size_t v = 0; v < patches.size(); ++v) {
-    EXPECT_TRUE(std::is_sorted(patches[v].begin(), patches[v].end()));
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      double angle = HUGE_VAL;
-      for (int corner : mesh.triangles[t])
-        angle =
-            std::min(angle, std::acos(std::min(1.0, mesh.vertices[v].dot(mesh.vertices[corner]))));
-      const bool inside = std::binary_search(patches[v].begin(), patches[v].end(), int(t));
-      EXPECT_TRUE(inside || angle > 0.99 * distance * std::sqrt(3) / 2) << v << " " << t;
-      EXPECT_TRUE(!inside || angle < 1.01 * distance) << v << " " << t;
+  const int n = surface.size();
+  Eigen::MatrixXd path = Eigen::MatrixXd::Constant(n, n, HUGE_VAL);
+  for (int v = 0; v < n; ++v) {
+    path(v, v) = 0;
+    for (int w : surface.neighbours[v])
+      path(v, w) = (surface.vertices[w] - surface.vertices[v]).norm();
+  }
+  for (int by = 0; by < n; ++by)
+    for (int v = 0; v < n; ++v)
+      for (int w = 0; w < n; ++w) path(v, w) = std::min(path(v, w), path(v, by) + path(by, w));
+  return path;
+}
+
+TEST(SurfacePatches, HoldWhatIsNearAlongEdges)
+{
+  const test::Mesh mesh = test::icosphere(4);
+  const rbc::SurfaceTemplate sphere(test::waved(mesh.vertices, 3), mesh.triangles);
+  const Eigen::MatrixXd path = paths(sphere);
+  for (double distance : {0.3, 0.7, 1.5, 10.0}) {
+    const auto patches = rbc::surface_patches(sphere, distance);
+    ASSERT_EQ(static_cast<int>(patches.size()), sphere.size());
+    for (int v = 0; v < sphere.size(); ++v) {
+      std::vector<int> expected;
+      for (std::size_t t = 0; t < sphere.triangles.size(); ++t) {
+        const auto &[a, b, c] = sphere.triangles[t];
+        if (std::min({path(v, a), path(v, b), path(v, c)}) <= distance)
+          expected.push_back(static_cast<int>(t));
+      }
+      EXPECT_EQ(patches[v], expected);
     }
   }
 }

@@ -392,6 +392,68 @@ class OwnCell(unittest.TestCase):
                     self.assertGreater((abs(f).max(axis=1) > 0).sum(), 20)
                     self.assertLess(abs(f - dump(*NUMERICAL)).max() / abs(f).max(), 1e-6)
 
+    def test_pressure_is_the_derivative_by_strain(self):
+        for name in ("inside", "outside"):
+            with self.subTest(name):
+                made, files, *_ = self.scene(
+                    name, noise=self.NOISE, frequency=4, compute=COMPUTES + "\nfix numerical all numdiff/virial 1 1e-6",
+                    thermo=THERMO + "".join(f" f_numerical[{n}]" for n in range(1, 7)))
+                thermo = run(made, files=files).thermo
+                virial = np.array([thermo[f"c_press[{n}]"][0] for n in (1, 2, 3, 6, 5, 4)])
+                numerical = np.array([thermo[f"f_numerical[{n}]"][0] for n in range(1, 7)])
+                np.testing.assert_allclose(virial, numerical, atol=1e-6 * abs(virial).max(), rtol=0)
+                np.testing.assert_allclose(thermo["c_sums[1]"], thermo["c_pe"], rtol=1e-12)
+                for n in range(1, 7):
+                    np.testing.assert_allclose(-thermo[f"c_sums[{n + 1}]"] / 12**3, thermo[f"c_press[{n}]"], rtol=1e-11)
+
+    def test_switched_off_and_overlaid(self):
+        made, files, *_ = self.scene("outside", noise=self.NOISE)
+        forces = run(made, files=files).dump().forces()
+        off = made + f"pair_style rbc/jkr 0.4 self no\n{ADHESIVE}\nrun 1\n"
+        self.assertLess(abs(run(off, files=files).dump().forces(-1)).max(), 1e-20)    # of the membrane
+        both = made.replace("pair_style rbc/jkr 0.4 self yes",
+                            "pair_style hybrid/overlay rbc/jkr 0.4 self yes rbc/jkr 0.3")
+        both = both.replace(ADHESIVE, f"pair_coeff * * rbc/jkr 1 adhesive {K} {SIGMA} {R}\n"
+                                      f"pair_coeff * * rbc/jkr 2 repulsive {K} {R}")
+        both = both.replace("compute contact all pair rbc/jkr", "compute contact all pair rbc/jkr 1")
+        np.testing.assert_allclose(run(both, files=files).dump().forces(), forces, atol=1e-14 * abs(forces).max(), rtol=0)
+
+    def test_its_periodic_image_is_the_cell_itself(self):
+        # a row of cells, of which one or two are in the box
+        row = dict(box="region box block 0 {} 0 12 0 12", pair="pair_style rbc/jkr 0.5 self {}", neighbor="neighbor 0.3 bin")
+        one = "rbc/create rbc single 3.975 6 6 rotate 10 0 0 1"
+        two = one + "\nrbc/create rbc single 11.925 6 6 rotate 10 0 0 1"
+        apart = [run(contact(pair=row["pair"].format(own), box=row["box"].format(length), cells=cells,
+                             neighbor=row["neighbor"])).dump().forces()
+                 for own, length, cells in (("yes", 7.95, one), ("no", 15.9, two))]
+        self.assertGreater(abs(apart[0]).max(), 1e-4)
+        np.testing.assert_allclose(apart[0], apart[1][:len(apart[0])], atol=1e-12 * abs(apart[0]).max(), rtol=0)
+
+    def test_atoms_with_the_molecule_id_of_a_cell(self):
+        made, files, *_ = self.scene("outside", noise=self.NOISE)
+        forces = run(made, files=files).dump().forces()
+        others = made.replace("create_box 1 box angle/types 1", "create_box 2 box angle/types 1")
+        others = others.replace("fix mem all", "create_atoms 2 single 6.1 6 7.6\ncreate_atoms 2 single 6.2 6 8.6\n"
+                                "set type 2 mol 1\nmass * 1\ngroup cell type 1\nfix mem cell")
+        others = others.replace(ADHESIVE, ADHESIVE.replace("* *", "1 1") + "\npair_coeff * 2 none")
+        np.testing.assert_allclose(run(others, files=files).dump().forces()[:len(forces)], forces,
+                                   atol=1e-14 * abs(forces).max(), rtol=0)
+
+    def test_moves_on_any_number_of_ranks(self):
+        moving = dict(fluid="fix flow all rbc/fluid dx 0.5 viscosity 1.5 density 1.025 inertia none",
+                      ib="fix ib all rbc/ib flow kernel peskin4 integrator rkc auto", timestep="timestep 300",
+                      run="run 12", dump=dump_line(12, columns="id xu yu zu fx fy fz"))
+        for name in ("inside", "outside"):
+            reference = None
+            for ranks in (1, 2, 4):
+                with self.subTest(name, ranks=ranks):
+                    made, files, rest, *_ = self.scene(name, noise=self.NOISE, **moving)
+                    x = run(made, ranks, files=files).dump().positions()
+                    reference = x if reference is None else reference
+                    np.testing.assert_allclose(x, reference, atol=1e-9, rtol=0)
+            made, files, *_ = self.scene(name, "self no", noise=self.NOISE, **moving)
+            self.assertGreater(abs(run(made, files=files).dump().positions() - reference).max(), 0.1)
+
     def test_ranks(self):
         for name in ("inside", "outside"):
             reference = None
