@@ -4,6 +4,8 @@ relative viscosity, the sizes of aggregates as Figure 12 of the paper, the gaps 
 
   study.py --folder runs --cells 128 --ranks 2      # cases of which the folder is there already are not run again
 
+Folders may hold runs of different numbers of cells.
+
 Writes suspension.csv and suspension.png here. --only names cases: a10, a60, a100 adhesive, r10, r60, r100 repulsive.
 """
 import csv
@@ -55,7 +57,8 @@ def gaps(folder, cells):
             for _, name in surfaces(folder)]
 
 
-def measure(folder, cells):
+def measure(folder):
+    cells = int(re.search(r"^Created (\d+) cells", (folder / "log.lammps").read_text(encoding="utf-8"), re.MULTILINE)[1])
     table, history = log_table(folder / "log.lammps"), read_ave_time(folder / "cell.dat")
     strain, steps = table["v_sheared"], table["Step"]
     late = strain >= min(SETTLED, strain[-1] / 2)
@@ -64,7 +67,7 @@ def measure(folder, cells):
     cells_in = np.repeat(classes.edges, np.round(100 * classes.aggregates).astype(int))
     pairs = gaps(folder, cells)
     return {
-        "strain": strain[-1], "viscosity": table["v_relative"][late].mean(), "classes": classes,
+        "cells": cells, "strain": strain[-1], "viscosity": table["v_relative"][late].mean(), "classes": classes,
         "median": np.median(cells_in[cells_in > 1]), "singles": classes.aggregates[0] / cells,
         "mean": cells / table["c_agg[1]"][late].mean(), "largest": table["c_agg[4]"][late].mean(),
         "lost": cells - volumes.shape[1], "volume": abs(volumes / volumes[0] - 1).max(),
@@ -74,7 +77,7 @@ def measure(folder, cells):
 
 
 def write(cases, path):
-    columns = "strain", "viscosity", "median", "mean", "largest", "singles", "lost", "volume", "least", "cut"
+    columns = "cells", "strain", "viscosity", "median", "mean", "largest", "singles", "lost", "volume", "least", "cut"
     with open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["case", *columns])
@@ -128,7 +131,7 @@ def main():
                 if arguments.ranks > 1:
                     command = ["mpirun", "-np", str(arguments.ranks), *command]
                 subprocess.run(command, cwd=folder, check=False, stdout=subprocess.DEVNULL)
-            cases[name] = measure(folder, arguments.cells)
+            cases[name] = measure(folder)
             print(name, {key: value for key, value in cases[name].items() if np.isscalar(value)}, flush=True)
             if kind == "a":
                 pictures[str(rate)] = folder / "last.png"
