@@ -14,7 +14,7 @@ from read_ave_time import read_table  # noqa: E402
 SMALL = dict(length=4, width=2, hematocrit=0.15, dx=0.8, gradient=1e5, rate=150, duration=0.012, every=1,
              scripts=ROOT / "scripts")
 DIAMETER, VISCOSITY = 8, 1.4965
-CELL = 93.53    # um^3 of rbc_642
+CELL = 92.836    # um^3 of rbc_642
 
 
 def throat_radius(x, throat):
