@@ -454,19 +454,23 @@ void PairRBCJKR::read_restart(FILE *fp)
     }
 }
 
+/* ----------------------------------------------------------------------
+   the sign tells whether cells touch themselves, so that files from before that can be read
+------------------------------------------------------------------------- */
+
 void PairRBCJKR::write_restart_settings(FILE *fp)
 {
-  const double numbers[2] = {cutoff, double(own_cells)};
-  fwrite(numbers, sizeof(double), 2, fp);
+  const double number = own_cells ? -cutoff : cutoff;
+  fwrite(&number, sizeof(double), 1, fp);
 }
 
 void PairRBCJKR::read_restart_settings(FILE *fp)
 {
-  double numbers[2];
-  if (comm->me == 0) utils::sfread(FLERR, numbers, sizeof(double), 2, fp, nullptr, error);
-  MPI_Bcast(numbers, 2, MPI_DOUBLE, 0, world);
-  cutoff = numbers[0];
-  own_cells = numbers[1] != 0;
+  double number;
+  if (comm->me == 0) utils::sfread(FLERR, &number, sizeof(double), 1, fp, nullptr, error);
+  MPI_Bcast(&number, 1, MPI_DOUBLE, 0, world);
+  cutoff = std::abs(number);
+  own_cells = number < 0;
 }
 
 /* ---------------------------------------------------------------------- */
