@@ -1,4 +1,5 @@
 #include "kernel.h"
+#include "measures.h"
 #include "rigid_sphere.h"
 #include "rigid_tube.h"
 
@@ -403,6 +404,37 @@ TEST(RigidSurface, SolvesOfAnEvaluation)
   EXPECT_LT(base, 4);
   EXPECT_LT(closer, 1.3 * base);
   EXPECT_LT(finer, 1.3 * base);
+}
+
+/// A force as of a vertex pressed against the wall: markers yield by more than is allowed, and the rest is solved for.
+TEST(RigidSurface, ForceNextToTheWall)
+{
+  constexpr double radius = 14;
+  const Grid grid = around_tube(radius, 2 * radius);
+  const Vec3 x0{5, 0.5 * grid.cells[1] + radius - 0.3, 0.5 * grid.cells[2]};
+  const auto force = [&](int c, const Vec3 &x) {
+    const double square =
+        std::pow(x[0] - x0[0], 2) + std::pow(x[1] - x0[1], 2) + std::pow(x[2] - x0[2], 2);
+    return (c == 0 && from_axis(grid, x) < radius ? 1.0 : 0.0) +
+           (c == 1 ? 1000 : 0) * std::exp(-square);
+  };
+  double mean[2], largest = 0;
+  int solves[2];
+  for (bool exact : {false, true}) {
+    Scene scene(grid, even(grid, {1, 1, ranks()}), KernelKind::peskin4,
+                {tube(grid, radius + surface_offset(KernelKind::peskin4), 1.2)}, true,
+                exact ? 1e-6 : 1e-3);
+    const auto outcome = scene.solve(force, at_rest);
+    std::printf("slip %.2g after %d solves\n", outcome.slip, outcome.solves);
+    EXPECT_TRUE(outcome.converged);
+    EXPECT_GT(outcome.slip, 1e-3);
+    solves[exact] = outcome.solves;
+    mean[exact] = scene.flow.drive.mean[0];
+    largest = measure(scene.flow).max_speed;
+  }
+  std::printf("mean velocity %.6g, %.6g, largest %.6g\n", mean[0], mean[1], largest);
+  EXPECT_NEAR(mean[0], mean[1], 1e-3 * largest);
+  EXPECT_LT(2 * solves[0], solves[1]);
 }
 
 /// The same forces and flow on one rank and on all.
