@@ -286,14 +286,11 @@ def voronoi_areas(points, triangles):
     for corner in range(3):
         a, b, c = (points[np.roll(triangles, -corner, axis=1)[:, n]] for n in range(3))
         twice = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-        at = {"a": ((b - a) * (c - a)).sum(axis=1), "b": ((a - b) * (c - b)).sum(axis=1), "c": ((a - c) * (b - c)).sum(axis=1)}
-        share = (((b - a)**2).sum(axis=1) * at["c"] + ((c - a)**2).sum(axis=1) * at["b"]) / twice / 8
-        np.add.at(areas, np.array(triangles)[:, corner], np.where(min_of(at) > 0, share, np.nan))
+        at_a, at_b, at_c = (((q - p) * (r - p)).sum(axis=1) for p, q, r in ((a, b, c), (b, c, a), (c, a, b)))
+        share = (((b - a)**2).sum(axis=1) * at_c + ((c - a)**2).sum(axis=1) * at_b) / twice / 8
+        acute = (at_a > 0) & (at_b > 0) & (at_c > 0)
+        np.add.at(areas, np.array(triangles)[:, corner], np.where(acute, share, np.nan))
     return areas
-
-
-def min_of(numbers):
-    return np.min(list(numbers.values()), axis=0)
 
 
 def energy_per_area(overlap):
@@ -420,11 +417,10 @@ class OwnCell(unittest.TestCase):
 
     def test_its_periodic_image_is_the_cell_itself(self):
         # a row of cells, of which one or two are in the box
-        row = dict(box="region box block 0 {} 0 12 0 12", pair="pair_style rbc/jkr 0.5 self {}", neighbor="neighbor 0.3 bin")
         one = "rbc/create rbc single 3.975 6 6 rotate 10 0 0 1"
         two = one + "\nrbc/create rbc single 11.925 6 6 rotate 10 0 0 1"
-        apart = [run(contact(pair=row["pair"].format(own), box=row["box"].format(length), cells=cells,
-                             neighbor=row["neighbor"])).dump().forces()
+        apart = [run(contact(pair=f"pair_style rbc/jkr 0.5 self {own}", box=f"region box block 0 {length} 0 12 0 12",
+                             cells=cells, neighbor="neighbor 0.3 bin")).dump().forces()
                  for own, length, cells in (("yes", 7.95, one), ("no", 15.9, two))]
         self.assertGreater(abs(apart[0]).max(), 1e-4)
         np.testing.assert_allclose(apart[0], apart[1][:len(apart[0])], atol=1e-12 * abs(apart[0]).max(), rtol=0)
