@@ -157,6 +157,7 @@ void MarkerResistance::build(const Flow &flow, KernelKind kernel, int count, con
   first_ = firsts[me];
   const int all = firsts[tasks - 1] + counts[tasks - 1];
   all_.resize(3 * std::size_t(all));
+  sums_.resize(all_.size());
 
   Cloud cloud;
   cloud.position.resize(all);
@@ -304,36 +305,32 @@ void MarkerResistance::add_column(const std::vector<Vec3> &apart,
   column = root.triangularView<Eigen::Lower>().solve(column.transpose()).transpose().eval();
   for (int a = 0; a < n; ++a)
     for (int e = 0; e < 3; ++e)
-      for (int d = 0; d < 3; ++d) blocks_.push_back(column(3 * a + d, e));
+      for (int d = 0; d < 3; ++d) blocks_.push_back(static_cast<float>(column(3 * a + d, e)));
 }
 
 void MarkerResistance::apply(const double *velocity, double *force)
 {
   MPI_Allgatherv(velocity, 3 * count_, MPI_DOUBLE, all_.data(), numbers_.data(), offsets_.data(),
                  MPI_DOUBLE, comm_);
+  std::fill(sums_.begin(), sums_.end(), 0.0);
   for (int n = 0; n < count_; ++n) {
-    double sum[3] = {0, 0, 0};
+    double t[3] = {0, 0, 0};
     for (int m = starts_[n]; m < starts_[n + 1]; ++m) {
-      const double *const u = all_.data() + 3 * std::size_t(rows_[m]),
-                          *b = &blocks_[9 * std::size_t(m)];
+      const double *const u = all_.data() + 3 * std::size_t(rows_[m]);
+      const float *const b = &blocks_[9 * std::size_t(m)];
       for (int e = 0; e < 3; ++e)
-        sum[e] += b[3 * e] * u[0] + b[3 * e + 1] * u[1] + b[3 * e + 2] * u[2];
+        t[e] += b[3 * e] * u[0] + b[3 * e + 1] * u[1] + b[3 * e + 2] * u[2];
     }
-    std::copy_n(sum, 3, force + 3 * n);
-  }
-  std::fill(all_.begin(), all_.end(), 0.0);
-  for (int n = 0; n < count_; ++n) {
-    const double *const t = force + 3 * n;
     for (int m = starts_[n]; m < starts_[n + 1]; ++m) {
-      double *const f = all_.data() + 3 * std::size_t(rows_[m]);
-      const double *const b = &blocks_[9 * std::size_t(m)];
+      double *const f = sums_.data() + 3 * std::size_t(rows_[m]);
+      const float *const b = &blocks_[9 * std::size_t(m)];
       for (int d = 0; d < 3; ++d) f[d] += b[d] * t[0] + b[3 + d] * t[1] + b[6 + d] * t[2];
     }
   }
   if (numbers_.size() > 1)
-    MPI_Allreduce(MPI_IN_PLACE, all_.data(), static_cast<int>(all_.size()), MPI_DOUBLE, MPI_SUM,
+    MPI_Allreduce(MPI_IN_PLACE, sums_.data(), static_cast<int>(sums_.size()), MPI_DOUBLE, MPI_SUM,
                   comm_);
-  std::copy_n(all_.data() + 3 * std::size_t(first_), 3 * count_, force);
+  std::copy_n(sums_.data() + 3 * std::size_t(first_), 3 * count_, force);
 }
 
 void MarkerResistance::yield(const double *force, double *velocity)
@@ -351,8 +348,10 @@ void MarkerResistance::yield(const double *force, double *velocity)
 
 std::size_t MarkerResistance::bytes() const
 {
-  return (starts_.capacity() + rows_.capacity() + disc_.capacity()) * sizeof(int) +
-         (blocks_.capacity() + all_.capacity()) * sizeof(double);
+  return (starts_.capacity() + rows_.capacity() + disc_starts_.capacity() + disc_.capacity()) *
+             sizeof(int) +
+         blocks_.capacity() * sizeof(float) +
+         (all_.capacity() + sums_.capacity() + own_yield_.capacity()) * sizeof(double);
 }
 
 }    // namespace fluid

@@ -34,10 +34,10 @@ class MarkerResistance {
   std::vector<int> numbers_, offsets_;    ///< of all tasks: three a marker
   int first_ = 0, count_ = 0;             ///< of this task's among all markers
 
-  // Columns of this task's markers: rows of markers, and 3 x 3 blocks.
+  // Columns of this task's markers: rows of markers, and 3 x 3 blocks. Memory sets the time to apply them.
   std::vector<int> starts_, rows_;
-  std::vector<double> blocks_;
-  std::vector<double> all_;
+  std::vector<float> blocks_;
+  std::vector<double> all_, sums_;
 
   // Markers within the disc about each of this task's, itself included; for its own force, and for that of the others.
   std::vector<int> disc_starts_, disc_;

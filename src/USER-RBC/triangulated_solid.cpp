@@ -114,7 +114,7 @@ void TriangulatedSolid::measure_centres()
     cells_[d] = std::max(1, static_cast<int>(length[d] / width));
     cell_[d] = length[d] / cells_[d];
   }
-  half_diagonal_ = 0.5001 * cell_.norm();    // distances of cells are rounded
+  rounding_ = 1e-4 * cell_.norm();    // of the distances of centres
   const std::size_t count = std::size_t(cells_[0]) * cells_[1] * cells_[2];
   centre_distance_.reserve(count);
   for (std::size_t n = 0; n < count; ++n) {
@@ -140,18 +140,22 @@ bool TriangulatedSolid::beyond(const Vec3 &x) const
   return (x.array() < lo_.array()).any() || (x.array() > hi_.array()).any();
 }
 
-std::size_t TriangulatedSolid::cell_of(const Vec3 &x) const
-{
-  std::array<std::size_t, 3> at;
-  for (int d = 0; d < 3; ++d)
-    at[d] = std::clamp(static_cast<int>((x[d] - lo_[d]) / cell_[d]), 0, cells_[d] - 1);
-  return at[0] + cells_[0] * (at[1] + cells_[1] * at[2]);
-}
-
 Vec3 TriangulatedSolid::centre(std::size_t cell) const
 {
   const Vec3 at(cell % cells_[0], cell / cells_[0] % cells_[1], cell / cells_[0] / cells_[1]);
   return lo_ + cell_.cwiseProduct(at + Vec3::Constant(0.5));
+}
+
+TriangulatedSolid::Estimate TriangulatedSolid::estimate(const Vec3 &x) const
+{
+  std::array<std::size_t, 3> at;
+  Vec3 from_centre;
+  for (int d = 0; d < 3; ++d) {
+    at[d] = std::clamp(static_cast<int>((x[d] - lo_[d]) / cell_[d]), 0, cells_[d] - 1);
+    from_centre[d] = x[d] - lo_[d] - cell_[d] * (at[d] + 0.5);
+  }
+  return {centre_distance_[at[0] + cells_[0] * (at[1] + cells_[1] * at[2])],
+          from_centre.norm() + rounding_};
 }
 
 /* ---------------------------------------------------------------------- */
@@ -170,15 +174,16 @@ void TriangulatedSolid::descend(int node, const Vec3 &x, Best &best) const
   const int *first = nullptr, *last = nullptr, *object = nullptr, *objects_end = nullptr;
   tree_.getChildren(node, first, last, object, objects_end);
   for (; object != objects_end; ++object) try_triangle(*object, x, best);
-  const auto square = [&](const int *child) {
-    return tree_.getVolume(*child).squaredExteriorDistance(x);
-  };
-  if (last - first == 2 && square(first + 1) < square(first)) {
-    if (square(first + 1) < best.square) descend(first[1], x, best);
-    last = first + 1;
+  const auto square = [&](int child) { return tree_.getVolume(child).squaredExteriorDistance(x); };
+  if (last == first) return;
+  int near = *first, far = last[-1];
+  double to_near = square(near), to_far = near == far ? HUGE_VAL : square(far);
+  if (to_far < to_near) {
+    std::swap(near, far);
+    std::swap(to_near, to_far);
   }
-  for (; first != last; ++first)
-    if (square(first) < best.square) descend(*first, x, best);
+  if (to_near < best.square) descend(near, x, best);
+  if (to_far < best.square) descend(far, x, best);
 }
 
 /// Among all images of the surface.
@@ -218,12 +223,10 @@ bool TriangulatedSolid::holds(const Vec3 &x) const
 {
   const Vec3 y = wrapped(x);
   if (beyond(y)) return false;
-  const std::size_t cell = cell_of(y);
-  const double distance = centre_distance_[cell];
-  if (std::abs(distance) > half_diagonal_) return distance < 0;
-  const double bound = 1.001 * (std::abs(distance) + half_diagonal_);
+  const Estimate guess = estimate(y);
+  if (std::abs(guess.distance) > guess.error) return guess.distance < 0;
   last_ = y;
-  nearest_to_last_ = exact(y, {bound * bound});
+  nearest_to_last_ = exact(y, {guess.largest() * guess.largest()});
   return nearest_to_last_.distance <= 0;
 }
 
@@ -233,9 +236,9 @@ std::optional<TriangulatedSolid::Nearest> TriangulatedSolid::nearest(const Vec3 
   const Vec3 y = wrapped(x);
   double bound = cutoff;
   if (!beyond(y)) {
-    const double distance = std::abs(centre_distance_[cell_of(y)]);
-    if (distance - half_diagonal_ > cutoff) return {};
-    bound = std::min(bound, 1.001 * (distance + half_diagonal_));
+    const Estimate guess = estimate(y);
+    if (std::abs(guess.distance) - guess.error > cutoff) return {};
+    bound = std::min(bound, guess.largest());
   }
   const Nearest found = y == last_ ? nearest_to_last_ : exact(y, {bound * bound});
   if (!(std::abs(found.distance) < cutoff)) return {};

@@ -7,6 +7,7 @@
 #include <unsupported/Eigen/BVH>
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -65,7 +66,7 @@ class TriangulatedSolid {
   // signed distances from the centres of coarse cells: far from the surface they tell the side
   Vec3 cell_;
   std::array<int, 3> cells_{};
-  double half_diagonal_ = 0;
+  double rounding_ = 0;
   std::vector<float> centre_distance_;
 
   // who asks for the side of a point often asks for its distance next
@@ -77,8 +78,15 @@ class TriangulatedSolid {
   void index();
   void measure_centres();
   Vec3 wrapped(const Vec3 &x) const;
-  std::size_t cell_of(const Vec3 &x) const;
   Vec3 centre(std::size_t cell) const;
+
+  /// What the cell around a place tells of its distance from the surface: it differs from that of the centre by at most
+  /// the way from there.
+  struct Estimate {
+    double distance, error;
+    double largest() const { return 1.001 * (std::abs(distance) + error); }
+  };
+  Estimate estimate(const Vec3 &x) const;
   bool beyond(const Vec3 &x) const;
   Nearest exact(const Vec3 &x, Best best) const;
   void search(const Vec3 &x, Best &best) const;
