@@ -10,6 +10,8 @@ The rotation that maps best is not how often the membrane goes around: on an ell
 2 a b / (a^2 + b^2) of that. The frequency that experiments count, the revolutions of the vertices around the
 centre, is given beside it.
 
+Means are over whole half turns of a shape that tumbles.
+
     membrane_motion.py vertices.dump --timestep DT --shear-rate G [-o motion.dat] [--from STRAIN]
 """
 
@@ -56,6 +58,13 @@ def revolutions(positions, clearance=0.4):
     return turns - turns[0]
 
 
+def after_half_turns(time, shape):
+    """When a shape has made as many half turns as it completes; the last time of all if it completes none."""
+    turned = np.maximum.accumulate(abs(shape - shape[0]) / np.pi)
+    whole = np.floor(turned[-1] + 1e-9)
+    return time[-1] if whole == 0 else np.interp(whole, turned, time)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("dump")
@@ -73,15 +82,18 @@ def main():
         np.savetxt(arguments.output, np.column_stack([strain, wrapped, np.degrees(membrane)]),
                    header="strain theta_shape phi_membrane", fmt="%.6g")
     late = strain >= min(arguments.start, strain[-1] / 2)
-    span = strain[late][-1] - strain[late][0]
-    shape_rate = (shape[late][-1] - shape[late][0]) / span
-    membrane_rate = (membrane[late][-1] - membrane[late][0]) / span
-    turns = revolutions(positions[late])
-    frequencies = turns[-1] / span
-    print(f"strain {strain[late][0]:.3g} to {strain[-1]:.3g}: shape turns at {shape_rate:+.4f}, "
-          f"membrane at {membrane_rate:+.4f} of the shear rate; "
-          f"tank-treading {membrane_rate - shape_rate:+.4f}; "
-          f"angle of the shape {np.degrees(shape[late]).min():.1f} to {np.degrees(shape[late]).max():.1f} degrees")
+    strain, shape, membrane, positions = strain[late], shape[late], membrane[late], positions[late]
+    end = after_half_turns(strain, shape)
+
+    def rate(angle):
+        return (np.interp(end, strain, angle) - angle[0]) / (end - strain[0])
+
+    turns = revolutions(positions)
+    frequencies = np.array([rate(vertex) for vertex in turns.T])
+    print(f"strain {strain[0]:.3g} to {end:.3g}: shape turns at {rate(shape):+.4f}, "
+          f"membrane at {rate(membrane):+.4f} of the shear rate; "
+          f"tank-treading {rate(membrane) - rate(shape):+.4f}; "
+          f"angle of the shape {np.degrees(shape).min():.1f} to {np.degrees(shape).max():.1f} degrees")
     print(f"vertices go around {frequencies.mean():+.4f} times per strain, standard deviation {frequencies.std():.4f} "
           f"over {frequencies.size} vertices")
 

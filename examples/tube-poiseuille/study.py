@@ -96,7 +96,7 @@ def measure(cells, membrane):
         rows.append({"cell": n + 1, "radius": cells.r[late, n].mean(), "velocity": 1e6 * cells.velocity[late, n].mean(),
                      "length": cells.length[late, n].mean(), "longest": cells.length[late, n].max(),
                      "deformation": cells.deformation[late, n].mean(), "half_turns_per_s": 1e3 * half_turns / span,
-                     "angle_mean": cells.long_angle[late, n].mean(), "angle_sd": cells.long_angle[late, n].std(),
+                     "long_axis_angle": cells.long_angle[late, n].mean(), "long_axis_angle_sd": cells.long_angle[late, n].std(),
                      "membrane_angle": membrane[:, n].max()})
     mean_radius = np.array([row["radius"] for row in rows])
     return rows, int(mean_radius.argmax()), int(mean_radius.argmin())

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
-from membrane_motion import angles, read_dump, revolutions  # noqa: E402
+from membrane_motion import after_half_turns, angles, read_dump, revolutions  # noqa: E402
 
 LONG, SHORT, TILT = 5.0, 1.5, 0.35
 STARTS = 2 * np.pi * np.arange(40) / 40
@@ -37,6 +37,16 @@ class Motion(unittest.TestCase):
         shape, membrane = angles(positions)
         for found in (shape[-1] - shape[0], membrane[-1], *(2 * np.pi * revolutions(positions)[-1])):
             self.assertAlmostEqual(found, -2 * np.pi, delta=1e-11)
+
+    def test_whole_half_turns(self):
+        # Jeffery's spheroid (Proc. R. Soc. A 102 (1922) 161): tan angle = r tan(-t r / (1 + r^2)); half a turn is pi (r + 1/r)
+        aspect, time = SHORT / LONG, np.linspace(0, 30, 3001)
+        phase = -time * aspect / (1 + aspect**2)
+        shape = np.unwrap(2 * np.arctan2(aspect * np.sin(phase), np.cos(phase))) / 2
+        half = np.pi * (aspect + 1 / aspect)
+        self.assertAlmostEqual(after_half_turns(time, shape), 2 * half, delta=1e-4)
+        self.assertEqual(after_half_turns(time[time < half], shape[time < half]), time[time < half][-1])
+        self.assertEqual(after_half_turns(time, np.full_like(time, TILT)), time[-1])
 
     def test_points_near_the_axis_do_not_count(self):
         positions = np.concatenate([cell(STARTS - self.turned, TILT), np.tile([7.1, 0, 3], (401, 1, 1))], axis=1)
