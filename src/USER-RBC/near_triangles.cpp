@@ -229,12 +229,13 @@ double NearTriangles::largest_approach(const double *x)
    no triangle can be nearer than it was less what it and the point came nearer to each other
 ------------------------------------------------------------------------- */
 
-const std::vector<NearTriangles::Contact> &NearTriangles::contacts(const double *x, double range,
-                                                                   double approach)
+const std::vector<NearTriangles::Contact> &NearTriangles::contacts(const double *x, double range)
 {
+  if (largest_approach(x) > slack_) rebuild(x);
   contacts_.clear();
   for (const Group &group : groups_) {
     const PlainVector p = at(x, group.point);
+    const double approach = motion_.around(group.point);
     double nearest2 = square(range);
     const Triangle *nearest = nullptr;
     std::array<double, 3> weight{};

@@ -51,12 +51,12 @@ class NearTriangles {
   void rebuild(const double *x);
 
   /// By how much at most a point and a triangle in reach of it have come nearer since that: small where both move
-  /// with the same flow. A flow that carries them along is allowed to move them by travel / 2.
+  /// with the same flow. A flow that carries them along is allowed to move them by travel / 2. Above `slack` contacts
+  /// can be missed.
   double largest_approach(const double *x);
 
-  /// All points nearer than range to a surface: one contact for each such surface. `approach` is the largest since the
-  /// last build or rebuild.
-  const std::vector<Contact> &contacts(const double *x, double range, double approach);
+  /// All points nearer than range to a surface: one contact for each such surface. Rebuilds if it must.
+  const std::vector<Contact> &contacts(const double *x, double range);
 
   std::size_t bytes() const;
 

@@ -125,7 +125,6 @@ void NearSurfaces::build(double range, double slack_of_ghosts, double stale)
 {
   allowed = slack_of_ghosts / 2;
   built.hold(atom->x[0], atom->nlocal + atom->nghost);
-  slack = FINER * slack_of_ghosts;
   collect_triangles(longest_known_edge(range, slack_of_ghosts + stale));
   stop->check();
   molecules.assign(atom->nlocal, rbc::NearTriangles::NO_SURFACE);
@@ -139,7 +138,7 @@ void NearSurfaces::build(double range, double slack_of_ghosts, double stale)
   rbc::NearTriangles::SeesOwn seen;
   if (own_patch > 0) seen = [this](int i, int triangle) { return sees_own(i, triangle); };
   finder.build(points, molecules.data(), atom->nlocal + atom->nghost, atom->x[0], triangles, range,
-               slack, travel, seen);
+               FINER * slack_of_ghosts, travel, seen);
 }
 
 /* ----------------------------------------------------------------------
@@ -201,12 +200,7 @@ bool NearSurfaces::are_near(int i, int j, double longest) const
 const std::vector<NearSurfaces::Contact> &NearSurfaces::contacts(double range)
 {
   check_moved();
-  double approach = finder.largest_approach(atom->x[0]);
-  if (approach > slack) {
-    finder.rebuild(atom->x[0]);
-    approach = 0;
-  }
-  return finder.contacts(atom->x[0], range, approach);
+  return finder.contacts(atom->x[0], range);
 }
 
 void NearSurfaces::check_moved()

@@ -77,7 +77,6 @@ class NearSurfaces : protected Pointers {
   rbc::HeldPositions built;                              ///< positions at build()
   double own_patch = 0;                                  ///< 0: vertices do not see their own cells
   double allowed = 0;                                    ///< displacement since then
-  double slack = 0;                                      ///< of the finder
 
   const Cell *cell_of(int i) const;
   const Shape *shape_of(int i) const;

@@ -23,6 +23,7 @@ void RelativeMotion::hold(const double *x, int points, double near)
   held_.assign(x, x + 3 * std::size_t(points));
   const SpatialBins bins(x, points, near);
   for (int d = 0; d < 3; ++d) count_[d] = bins.count(d);
+  around_.assign(bins.count(), 0);
   bin_.resize(points);
   for (int n = 0; n < points; ++n)
     bin_[n] = bins.of(
@@ -48,28 +49,33 @@ RelativeMotion::Differences RelativeMotion::differences(const double *x)
 
   Differences differences;
   merge_neighbors(count_, extents_, merged_);
-  differences.near = widest();
+  differences.near = measure_widths(around_);
   merge_neighbors(count_, extents_, merged_);
-  differences.wider = widest();
+  differences.wider = measure_widths(wider_);
   return differences;
 }
 
-double RelativeMotion::widest() const
+/// Returns the largest.
+double RelativeMotion::measure_widths(std::vector<double> &widths) const
 {
-  double widest2 = 0;
-  for (const Extent &extent : extents_) {
-    if (extent.lo[0] > extent.hi[0]) continue;
+  widths.resize(extents_.size());
+  double widest = 0;
+  for (std::size_t b = 0; b < extents_.size(); ++b) {
+    const Extent &extent = extents_[b];
     double sum = 0;
-    for (int d = 0; d < 3; ++d)
-      sum += (extent.hi[d] - extent.lo[d]) * (extent.hi[d] - extent.lo[d]);
-    widest2 = std::max(widest2, sum);
+    if (extent.lo[0] <= extent.hi[0])
+      for (int d = 0; d < 3; ++d)
+        sum += (extent.hi[d] - extent.lo[d]) * (extent.hi[d] - extent.lo[d]);
+    widths[b] = std::sqrt(sum);
+    widest = std::max(widest, widths[b]);
   }
-  return std::sqrt(widest2);
+  return widest;
 }
 
 std::size_t RelativeMotion::bytes() const
 {
-  return held_.capacity() * sizeof(double) + bin_.capacity() * sizeof(int) +
+  return (held_.capacity() + around_.capacity() + wider_.capacity()) * sizeof(double) +
+         bin_.capacity() * sizeof(int) +
          (extents_.capacity() + merged_.capacity()) * sizeof(Extent);
 }
 

@@ -17,6 +17,9 @@ class RelativeMotion {
   };
   Differences differences(const double *x);
 
+  /// Bound of the difference, when last asked for, to any point that was nearer than `near`.
+  double around(int point) const { return around_[bin_[point]]; }
+
   std::size_t bytes() const;
 
  private:
@@ -31,8 +34,9 @@ class RelativeMotion {
   std::vector<double> held_;
   std::vector<int> bin_;                    // of each point
   std::vector<Extent> extents_, merged_;    // of each bin; with its neighbors
+  std::vector<double> around_, wider_;      // widths of the latter; with the next neighbors, too
 
-  double widest() const;
+  double measure_widths(std::vector<double> &widths) const;
 };
 
 }    // namespace rbc
