@@ -563,7 +563,12 @@ void FixRBCIB::post_run()
                         vertices > 0 ? each / vertices * 1e6 : 0.0, each / cells * 1e9,
                         100 * seconds[n] / seconds.back());
   }
-  utils::logmesg(lmp, text + costs);
+  text += costs;
+  if (steady->rejected() > 0)
+    text += fmt::format("Steps taken again: {}, {} of them gone wrong\n", steady->rejected(),
+                        steady->failed());
+  if (steady->failed() > 0) text += fmt::format("The last: {}\n", steady->last_failure());
+  utils::logmesg(lmp, text);
   if (unconverged > 0)
     error->warning(FLERR, "Fix rbc/ib {} reached its maxiter of {} in {} steps", id,
                    direct.max_solves, unconverged);

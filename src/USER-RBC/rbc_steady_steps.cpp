@@ -74,7 +74,7 @@ void SteadySteps::start_run(FixRBCFluid *fluid, bool forces_change)
   radius_interval_ = SHORTEST_INTERVAL;
   raw_radius_ = 0;
   estimated_step_ = -1;
-  rejected_ = 0;
+  rejected_ = failed_ = 0;
   if (!control_.active()) return;
   const bool changed = update->dt != last_dt_ && !restarted_;    // by the user
   if (next_dt_ == 0 || changed) next_dt_ = update->dt;
@@ -335,6 +335,10 @@ bool SteadySteps::attempt()
   if (flaw.empty() && local_error_ <= control_.tolerance) return true;
 
   ++rejected_;
+  if (!flaw.empty()) {
+    ++failed_;
+    last_failure_ = flaw;
+  }
   radius_step_ = -1;    // modes may have become faster, in contact for example
   if (next_dt_ < control_.smallest) stop_adapting(flaw);
   set_timestep(next_dt_, update->ntimestep - 1);

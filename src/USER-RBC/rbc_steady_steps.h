@@ -42,6 +42,8 @@ class SteadySteps : protected Pointers {
   double radius() const { return radius_; }
   double local_error() const { return local_error_; }
   bigint rejected() const { return rejected_; }
+  bigint failed() const { return failed_; }    ///< of these: went wrong altogether
+  const std::string &last_failure() const { return last_failure_; }
   double last_dt() const { return last_dt_; }
 
   static constexpr int NSTATE = 2 + rbc::Path::LONGEST;
@@ -81,7 +83,8 @@ class SteadySteps : protected Pointers {
   double next_dt_ = 0, local_error_ = 0;
   bool restarted_ = false;
   bool velocities_known_ = false;    // those at the end of the step, before LAMMPS computes forces
-  bigint rejected_ = 0;
+  bigint rejected_ = 0, failed_ = 0;
+  std::string last_failure_;
 
   // Columns: whether the atom has a past; ab2 the velocity at the start of the last step, rkc the displacements in the
   // last steps; the fastest mode.

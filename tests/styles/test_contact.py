@@ -178,9 +178,12 @@ class InPlasma(unittest.TestCase):
 
     def test_adapt_shortens_steps_that_leave_the_list(self):
         # at 200/s a vertex passes the skin in some hundred us; the error alone would allow more
-        thermo = self.carried(2, "rkc auto adapt 1.0 5000 courant 5", "neighbor 0.2 bin", " dt f_ib[9]").thermo
-        self.assertGreater(thermo["f_ib[9]"][-1], 0)    # steps taken again
+        result = self.carried(2, "rkc auto adapt 1.0 5000 courant 5", "neighbor 0.2 bin", " dt f_ib[8]")
+        thermo = result.thermo
+        self.assertGreater(thermo["f_ib[8]"][-1], 0)
         self.assertLess(thermo["Dt"].max(), 2000)
+        self.assertRegex(result.printed, r"Steps taken again: (\d+), \1 of them gone wrong\n"
+                                         r"The last: Pair rbc/jkr: vertices moved by up to .* raise the skin")
         self.assertLess(thermo["c_pe"].min(), 0)
 
     def test_the_step_cost_has_its_rows(self):
