@@ -18,6 +18,8 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
@@ -57,6 +59,16 @@ def gaps(folder, cells):
             for _, name in surfaces(folder)]
 
 
+def aggregate_sizes(path):
+    """Cells in each aggregate of a file of surfaces."""
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    of_point = reader.GetOutput().GetPointData()
+    cells = np.unique([vtk_to_numpy(of_point.GetArray(name)) for name in ("molecule", "aggregate")], axis=1)
+    return np.unique(cells[1], return_counts=True)[1]
+
+
 def measure(folder):
     cells = int(re.search(r"^Created (\d+) cells", (folder / "log.lammps").read_text(encoding="utf-8"), re.MULTILINE)[1])
     table, history = log_table(folder / "log.lammps"), read_ave_time(folder / "cell.dat")
@@ -64,11 +76,13 @@ def measure(folder):
     late = strain >= min(SETTLED, strain[-1] / 2)
     volumes = history.column(6)
     classes = mean_classes(folder / "classes.dat", steps[late][0])
-    cells_in = np.repeat(classes.edges, np.round(100 * classes.aggregates).astype(int))
+    sizes = np.concatenate([aggregate_sizes(name) for step, name in surfaces(folder)
+                            if np.interp(step, steps, strain) >= min(SETTLED, strain[-1] / 2)])
     pairs = gaps(folder, cells)
     return {
         "cells": cells, "strain": strain[-1], "viscosity": table["v_relative"][late].mean(), "classes": classes,
-        "median": np.median(cells_in[cells_in > 1]), "singles": classes.aggregates[0] / cells,
+        "median": np.median(sizes[sizes > 1]), "of_cells": np.median(np.repeat(sizes, sizes)),
+        "singles": classes.aggregates[0] / cells,
         "mean": cells / table["c_agg[1]"][late].mean(), "largest": table["c_agg[4]"][late].mean(),
         "lost": cells - volumes.shape[1], "volume": abs(volumes / volumes[0] - 1).max(),
         "least": min(p.min() for p in pairs), "cut": sum(int((p == 0).sum()) for p in pairs),
@@ -77,7 +91,7 @@ def measure(folder):
 
 
 def write(cases, path):
-    columns = "cells", "strain", "viscosity", "median", "mean", "largest", "singles", "lost", "volume", "least", "cut"
+    columns = "cells", "strain", "viscosity", "median", "of_cells", "mean", "largest", "singles", "lost", "volume", "least", "cut"
     with open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["case", *columns])
