@@ -40,14 +40,16 @@ def draw(folders, path):
         top, bottom = axes[:, column]
         for name, color in zip(BLOCKS, ("#b3202a", "#4b8b3b", "#2a6fb0")):
             top.step(table["v_seconds"], table[name], where="post", color=color, label=f"BLOCK {name[-1]}")
-        top.set(title=title, xlabel="time / s", ylabel="cells in a block" if column == 0 else None, ylim=(0, None))
+        top.set(title=title, xlabel="time / s", ylabel="cells in a block" if column == 0 else None)
         top.legend(frameon=False, fontsize=8, ncol=3)
         _, x, vertices = read_slices(folder / "slices.dat")
         half = len(vertices) // 2
         bottom.step(x, vertices[0] / VERTICES, where="mid", color="0.6", label="at the start")
         bottom.step(x, vertices[half:].mean(axis=0) / VERTICES, where="mid", color="k", label="mean over the second half")
-        bottom.set(xlabel="x / µm (flow to the right)", ylabel="cells in a slice of D/2" if column == 0 else None, ylim=(0, None))
+        bottom.set(xlabel="x / µm (flow to the right)", ylabel="cells in a slice of D/2" if column == 0 else None)
         bottom.legend(frameon=False, fontsize=8)
+    for left in axes[:, 0]:    # both columns share its limits
+        left.set_ylim(0, 1.15 * left.get_ylim()[1])
     figure.tight_layout()
     figure.savefig(path, dpi=90)
 

@@ -11,8 +11,8 @@ from scene_case import run_example
 sys.path.insert(0, str(ROOT / "scripts"))
 from read_ave_time import read_table  # noqa: E402
 
-SMALL = dict(length=4, width=2, hematocrit=0.15, dx=0.8, gradient=1e5, rate=150, duration=0.012, every=1,
-             scripts=ROOT / "scripts")
+SMALL = dict(length=4, width=2, hematocrit=0.15, dx=0.8, gradient=1e5, rate=150, step=0.02, error=5e-3, duration=0.012,
+             every=1, scripts=ROOT / "scripts")
 DIAMETER, VISCOSITY = 8, 1.4965
 CELL = 92.836    # um^3 of rbc_642
 
