@@ -263,6 +263,10 @@ void MarkerResistance::build(const Flow &flow, KernelKind kernel, int count, con
   starts_.assign(1, 0);
   rows_.clear();
   blocks_.clear();
+  std::size_t rows = 0;
+  for (const auto &column : columns) rows += column.size();
+  rows_.reserve(rows);
+  blocks_.reserve(9 * rows);
   std::vector<Vec3> apart;
   std::vector<double> yielding;
   for (int n = 0; n < count; ++n) {

@@ -93,7 +93,8 @@ def main():
     print(f"strain {strain[0]:.3g} to {end:.3g}: shape turns at {rate(shape):+.4f}, "
           f"membrane at {rate(membrane):+.4f} of the shear rate; "
           f"tank-treading {rate(membrane) - rate(shape):+.4f}; "
-          f"angle of the shape {np.degrees(shape).min():.1f} to {np.degrees(shape).max():.1f} degrees")
+          f"angle of the shape to strain {strain[-1]:.3g}: {np.degrees(shape).min():.1f} to "
+          f"{np.degrees(shape).max():.1f} degrees")
     print(f"vertices go around {frequencies.mean():+.4f} times per strain, standard deviation {frequencies.std():.4f} "
           f"over {frequencies.size} vertices")
 

@@ -2,7 +2,7 @@
 """Blood sheared at 10, 60 and 100 /s, with adhesion and without: runs in.suspension in a folder for each case, and draws the
 relative viscosity, the sizes of aggregates as Figure 12 of the paper, the gaps between cells, and the cells.
 
-  study.py --folder runs --cells 128 --ranks 2      # cases of which the folder is there already are not run again
+  study.py --folder runs --ranks 2      # cases of which the folder is there already are not run again
 
 Folders may hold runs of different numbers of cells.
 
@@ -73,12 +73,14 @@ def measure(folder):
     cells = int(re.search(r"^Created (\d+) cells", (folder / "log.lammps").read_text(encoding="utf-8"), re.MULTILINE)[1])
     table, history = log_table(folder / "log.lammps"), read_ave_time(folder / "cell.dat")
     strain, steps = table["v_sheared"], table["Step"]
-    late = strain >= min(SETTLED, strain[-1] / 2)
+    start = min(SETTLED, strain[-1] / 2)
+    late = strain >= start
     volumes = history.column(6)
     classes = mean_classes(folder / "classes.dat", steps[late][0])
     sizes = np.concatenate([aggregate_sizes(name) for step, name in surfaces(folder)
-                            if np.interp(step, steps, strain) >= min(SETTLED, strain[-1] / 2)])
+                            if np.interp(step, steps, strain) >= start])
     pairs = gaps(folder, cells)
+    pairs = pairs[1:] or pairs    # without the packing at the start
     return {
         "cells": cells, "strain": strain[-1], "viscosity": table["v_relative"][late].mean(), "classes": classes,
         "median": np.median(sizes[sizes > 1]), "of_cells": np.median(np.repeat(sizes, sizes)),
@@ -86,7 +88,7 @@ def measure(folder):
         "mean": cells / table["c_agg[1]"][late].mean(), "largest": table["c_agg[4]"][late].mean(),
         "lost": cells - volumes.shape[1], "volume": abs(volumes / volumes[0] - 1).max(),
         "least": min(p.min() for p in pairs), "cut": sum(int((p == 0).sum()) for p in pairs),
-        "pairs": np.concatenate(pairs[1:] or pairs), "history": (strain, table["v_relative"]),
+        "pairs": np.concatenate(pairs), "history": (strain, table["v_relative"]),
     }
 
 

@@ -40,9 +40,9 @@ class NearTriangles {
     double gap;            ///< distance, negative inside
   };
 
-  /// Finds what comes within `range` of each other before neighbors have come nearer by `slack` and anything has moved by
-  /// travel / 2. `surfaces[n]` is that of point n < points; triangles have their corners among the `corners` first
-  /// positions. Without `sees_own` points see nothing of their own surface.
+  /// Finds what comes within `range` of each other before anything has moved by travel / 2; where neighbors have come
+  /// nearer by more than `slack` contacts() finds it anew. `surfaces[n]` is that of point n < points <= corners; triangles
+  /// have their corners among the `corners` first positions. Without `sees_own` points see nothing of their own surface.
   void build(int points, const Surface *surfaces, int corners, const double *x,
              const std::vector<Triangle> &triangles, double range, double slack, double travel,
              SeesOwn sees_own = {});
@@ -51,8 +51,7 @@ class NearTriangles {
   void rebuild(const double *x);
 
   /// By how much at most a point and a triangle in reach of it have come nearer since that: small where both move
-  /// with the same flow. A flow that carries them along is allowed to move them by travel / 2. Above `slack` contacts
-  /// can be missed.
+  /// with the same flow. A flow that carries them along is allowed to move them by travel / 2.
   double largest_approach(const double *x);
 
   /// All points nearer than range to a surface: one contact for each such surface. Rebuilds if it must.

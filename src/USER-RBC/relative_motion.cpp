@@ -18,6 +18,14 @@ void RelativeMotion::Extent::add(const Extent &other)
   }
 }
 
+double RelativeMotion::Extent::width() const
+{
+  if (lo[0] > hi[0]) return 0;    // of nothing
+  double sum = 0;
+  for (int d = 0; d < 3; ++d) sum += (hi[d] - lo[d]) * (hi[d] - lo[d]);
+  return std::sqrt(sum);
+}
+
 void RelativeMotion::hold(const double *x, int points, double near)
 {
   held_.assign(x, x + 3 * std::size_t(points));
@@ -47,35 +55,21 @@ RelativeMotion::Differences RelativeMotion::differences(const double *x)
   constexpr double infinite = std::numeric_limits<double>::infinity();
   if (!numbers) return {infinite, infinite};
 
-  Differences differences;
+  Differences differences{0, 0};
   merge_neighbors(count_, extents_, merged_);
-  differences.near = measure_widths(around_);
-  merge_neighbors(count_, extents_, merged_);
-  differences.wider = measure_widths(wider_);
-  return differences;
-}
-
-/// Returns the largest.
-double RelativeMotion::measure_widths(std::vector<double> &widths) const
-{
-  widths.resize(extents_.size());
-  double widest = 0;
-  for (std::size_t b = 0; b < extents_.size(); ++b) {
-    const Extent &extent = extents_[b];
-    double sum = 0;
-    if (extent.lo[0] <= extent.hi[0])
-      for (int d = 0; d < 3; ++d)
-        sum += (extent.hi[d] - extent.lo[d]) * (extent.hi[d] - extent.lo[d]);
-    widths[b] = std::sqrt(sum);
-    widest = std::max(widest, widths[b]);
+  for (std::size_t b = 0; b < bins; ++b) {
+    around_[b] = extents_[b].width();
+    differences.near = std::max(differences.near, around_[b]);
   }
-  return widest;
+  merge_neighbors(count_, extents_, merged_);
+  for (const Extent &extent : extents_)
+    differences.wider = std::max(differences.wider, extent.width());
+  return differences;
 }
 
 std::size_t RelativeMotion::bytes() const
 {
-  return (held_.capacity() + around_.capacity() + wider_.capacity()) * sizeof(double) +
-         bin_.capacity() * sizeof(int) +
+  return (held_.capacity() + around_.capacity()) * sizeof(double) + bin_.capacity() * sizeof(int) +
          (extents_.capacity() + merged_.capacity()) * sizeof(Extent);
 }
 

@@ -17,7 +17,7 @@ class RelativeMotion {
   };
   Differences differences(const double *x);
 
-  /// Bound of the difference, when last asked for, to any point that was nearer than `near`.
+  /// Bound of the difference, when last asked for and finite, to any point that was nearer than `near`; 0 after hold().
   double around(int point) const { return around_[bin_[point]]; }
 
   std::size_t bytes() const;
@@ -28,15 +28,14 @@ class RelativeMotion {
     double lo[3], hi[3];
 
     void add(const Extent &other);
+    double width() const;
   };
 
   int count_[3] = {0, 0, 0};    // of bins
   std::vector<double> held_;
   std::vector<int> bin_;                    // of each point
   std::vector<Extent> extents_, merged_;    // of each bin; with its neighbors
-  std::vector<double> around_, wider_;      // widths of the latter; with the next neighbors, too
-
-  double measure_widths(std::vector<double> &widths) const;
+  std::vector<double> around_;              // width of the latter
 };
 
 }    // namespace rbc
