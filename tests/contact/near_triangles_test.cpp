@@ -249,18 +249,31 @@ TEST(RelativeMotion, CountsBetweenNeighborsOnly)
 
   for (Vec3 &v : there) v += 0.01 * v[2] * Vec3::UnitX() + 1e-3 * random.direction();
   double nearest = 0, wider = 0;
+  std::vector<double> around(x.size(), 0);
   for (std::size_t i = 0; i < x.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const double apart = (x[i] - x[j]).norm();
       const double difference = (there[i] - x[i] - there[j] + x[j]).norm();
-      if (apart < near) nearest = std::max(nearest, difference);
+      if (apart < near) {
+        nearest = std::max(nearest, difference);
+        around[i] = std::max(around[i], difference);
+        around[j] = std::max(around[j], difference);
+      }
       if (apart < 2 * near) wider = std::max(wider, difference);
     }
   const auto bounds = motion.differences(there[0].data());
   EXPECT_GE(bounds.near, nearest);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    EXPECT_GE(motion.around(static_cast<int>(i)), around[i]) << i;
   EXPECT_LE(bounds.near, 0.01 * 3 * near + 4e-3) << "three bins";
   EXPECT_GE(bounds.wider, wider);
   EXPECT_LE(bounds.wider, 0.04 + 4e-3);
+
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (x[i][0] < 10) there[i] = x[i];
+  motion.differences(there[0].data());
+  for (std::size_t i = 0; i < x.size(); ++i)
+    EXPECT_EQ(motion.around(static_cast<int>(i)) == 0, x[i][0] < 10) << "one group is at rest";
 
   there[7][1] = NAN;
   EXPECT_EQ(motion.differences(there[0].data()).near, HUGE_VAL);
