@@ -1,17 +1,28 @@
 """Runs the input script of an example as a user does, with some of its variables set; reads its study.py."""
 
 import importlib.util
+import re
 
 import numpy as np
 
-from lammps_case import POTENTIALS, ROOT, read_template, run
+from lammps_case import POTENTIALS, ROOT, dump_line, read_template, run
 
 
-def run_example(name, ranks=1, timeout=500, **variables):
+def example_script(name, **variables):
     """Variables are those of the script's `variable ... index` lines; a string may hold a list of values."""
     lines = [f"variable {variable} index {value}" for variable, value in variables.items()]
     script = (ROOT / "examples" / name / f"in.{name}").read_text()
-    return run("\n".join([f"variable templates index {POTENTIALS}", *lines, script]), ranks, timeout=timeout)
+    return "\n".join([f"variable templates index {POTENTIALS}", *lines, script])
+
+
+def run_example(name, ranks=1, timeout=500, **variables):
+    return run(example_script(name, **variables), ranks, timeout=timeout)
+
+
+def shortened(script, group, steps, every):
+    """The script with its long run, which a fix halt ends, cut to some steps, and atoms of the group dumped in it."""
+    dump = dump_line(every, columns="id xu yu zu").replace("dump atoms all", f"dump atoms {group}")
+    return re.sub(r"^run +\d{5,}$", f"{dump}\nrun {steps}", script, flags=re.MULTILINE)
 
 
 def study_of(name):

@@ -5,8 +5,8 @@ import unittest
 
 import numpy as np
 
-from lammps_case import ROOT, in_parallel
-from scene_case import run_example
+from lammps_case import ROOT, in_parallel, run
+from scene_case import example_script, run_example, shortened
 
 sys.path.insert(0, str(ROOT / "scripts"))
 from read_ave_time import read_table  # noqa: E402
@@ -65,6 +65,19 @@ class Throat(unittest.TestCase):
             print(f"\ncells went {gone:.2f} um, the fluid {carried:.2f} um")
             self.assertGreater(gone, 0.7 * carried)
             self.assertLess(gone, 2 * carried)
+
+    def test_same_on_all_tasks(self):
+        # packed cells, in contact with each other and the wall, in a mesh's inside; steps of the largest error allowed
+        steps = 20
+        script = shortened(example_script("throat", **{**SMALL, "throat": 1.2, "hematocrit": 0.3}), "cells", steps, steps)
+        dumps = [run(script, ranks, timeout=500).dump() for ranks in (1, 2, 4)]
+        alone = dumps[0].positions()
+        moved = np.linalg.norm(alone - dumps[0].positions(0), axis=1).max() / DIAMETER
+        self.assertGreater(moved, 0.05)
+        for dump in dumps[1:]:
+            apart = np.linalg.norm(dump.positions() - alone, axis=1).max() / DIAMETER
+            print(f"\nmoved by up to {moved:.3g} diameters, {apart:.2g} diameters from 1 task")
+            self.assertLess(apart, 1e-6)
 
 
 if __name__ == "__main__":

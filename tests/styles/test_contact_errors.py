@@ -2,7 +2,7 @@
 
 import unittest
 
-import test_errors
+from error_case import BadInput, DuringARun
 from lammps_case import SHEAR
 
 ADHESIVE = "pair_coeff 1 1 adhesive 0.0628 1e-3 0.3"
@@ -39,8 +39,8 @@ CONTACT_ERRORS = {
     "no mixing": (contact(coeff=ADHESIVE + "\npair_coeff 2 2 none", create_box="create_box 2 box angle/types 1"),
                   ["rbc/jkr", "does not mix", "types 1 2"]),
     "shift": (contact(coeff=ADHESIVE + "\npair_modify shift yes"), ["rbc/jkr", "shift"]),
-    "tail": (contact(coeff=ADHESIVE + "\npair_modify tail yes", boundary="boundary p p p", fluid=test_errors.FREE),
-             ["rbc/jkr", "tail"]),
+    "tail": (contact(coeff=ADHESIVE + "\npair_modify tail yes", boundary="boundary p p p",
+                     fluid=SHEAR["fluid"].split(" wall")[0]), ["rbc/jkr", "tail"]),
     "no membrane": (contact(membrane=None, ib=None, fluid=None, thermo=None), ["rbc/jkr", "needs a fix rbc/membrane"]),
     "atom of no cell": (contact(coeff=ADHESIVE + "\nmass 1 1\ncreate_atoms 1 single 1 1 1\ngroup red molecule 1",
                                 membrane=SHEAR["membrane"].replace("all", "red")),
@@ -51,9 +51,7 @@ CONTACT_ERRORS = {
 }
 
 
-class BadInput(unittest.TestCase):
-    check, refused = test_errors.BadInput.check, test_errors.BadInput.refused
-
+class Contact(BadInput):
     def test_before_the_first_step(self):
         self.check(CONTACT_ERRORS)
 
@@ -62,9 +60,7 @@ class BadInput(unittest.TestCase):
                    ranks=2)
 
 
-class DuringARun(unittest.TestCase):
-    check = test_errors.DuringARun.check
-
+class Stops(DuringARun):
     def test_beyond_the_skin_within_a_step(self):
         for ranks in (1, 2):
             with self.subTest(ranks=ranks):

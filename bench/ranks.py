@@ -1,0 +1,92 @@
+#!/usr/bin/env python3
+"""Differences between runs of the vessel scenes of the examples, at reduced length, on 1, 2 and 4 ranks.
+
+Writes ranks.csv and ranks.png; the executables come from the environment (LMP_RBC, MPIEXEC), as in ranks.sh.
+"""
+import argparse
+import csv
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE.parent / "tests" / folder) for folder in ("styles", "scenes")]
+from lammps_case import ROOT, run  # noqa: E402
+from scene_case import example_script, shortened  # noqa: E402
+
+RANKS = (1, 2, 4)
+FRAMES = 40
+BOUND = 1e-6    # of a diameter
+DIAMETER = 7.82    # um
+
+# variables of the scene, steps, diameter of a cell in its units
+SCENES = {
+    "capsule-channel": (dict(shape="capsule_642", length=5, cells=12), 80, 3.4),
+    "tube-poiseuille": (dict(length=9.6), 400, DIAMETER),
+    "fahraeus": (dict(length=8.4, hematocrit=0.45), 400, DIAMETER),
+    "throat": (dict(length=4, width=2, throat=1.2, hematocrit=0.3), 200, DIAMETER)}
+
+
+def script(name, variables, steps):
+    variables = {**variables, "scripts": ROOT / "scripts", "frames": 100000}
+    group = "capsule" if name == "capsule-channel" else "cells"
+    return shortened(example_script(name, **variables), group, steps, steps // FRAMES)
+
+
+def compare(name):
+    """Rows of ranks.csv: of each frame the largest distance of a vertex from where it is on one rank, in diameters."""
+    variables, steps, diameter = SCENES[name]
+    runs = {ranks: run(script(name, variables, steps), ranks, timeout=3600) for ranks in RANKS}
+    dumps = {ranks: result.dump() for ranks, result in runs.items()}
+    alone, rows = dumps[1], []
+    for frame, step in enumerate(alone.steps):
+        there = alone.positions(frame)
+        row = {"scene": name, "step": step,
+               "moved_diameters": f"{np.linalg.norm(there - alone.positions(0), axis=1).max() / diameter:.4g}"}
+        for ranks in RANKS[1:]:
+            apart = np.linalg.norm(dumps[ranks].positions(frame) - there, axis=1).max() / diameter
+            row[f"apart_{ranks}_ranks"] = f"{apart:.3g}"
+        rows.append(row)
+    return rows
+
+
+def draw(rows, path):
+    figure = Figure(figsize=(8, 5), layout="constrained")
+    axes = figure.subplots()
+    for n, name in enumerate(SCENES):
+        mine = [row for row in rows if row["scene"] == name and row["step"] > 0]
+        for ranks, style in zip(RANKS[1:], ("-", "--")):
+            axes.semilogy([row["step"] for row in mine], [float(row[f"apart_{ranks}_ranks"]) for row in mine],
+                          style, color=f"C{n}", label=f"{name}, {ranks} ranks")
+    axes.axhline(BOUND, color="0.6", lw=1)
+    axes.set(xlabel="step", ylabel="largest distance from a vertex on 1 rank (diameters)")
+    axes.legend(fontsize=8)
+    axes.grid(alpha=0.3)
+    figure.savefig(path, dpi=90)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--only", nargs="*", choices=SCENES, default=list(SCENES), help="scenes to run")
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        for name in parser.parse_args().only:
+            mine = compare(name)
+            rows += mine
+            below = [row for row in mine if max(float(row[f"apart_{ranks}_ranks"]) for ranks in RANKS[1:]) < BOUND]
+            print(f"{name}: below {BOUND:g} diameters to step {below[-1]['step']} (moved {below[-1]['moved_diameters']}); "
+                  "at the end", mine[-1], flush=True)
+    with open(HERE / "ranks.csv", "w", newline="", encoding="ascii") as file:
+        writer = csv.DictWriter(file, rows[0].keys(), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+    draw(rows, HERE / "ranks.png")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,247 @@
+"""What bad input to fix rbc/membrane, rbc/create and the computes of cells gets."""
+
+import unittest
+
+from error_case import BadInput
+from lammps_case import POTENTIALS, SHEAR
+
+MEMBRANE = "fix mem all rbc/membrane rbc "
+CREATE = "rbc/create rbc "
+
+# A script that goes wrong before the first step, and words of its message.
+# Lines of the scene are replaced; "last" comes before `run`.
+
+MEMBRANE_ERRORS = {
+    "no arguments": (dict(membrane="fix mem all rbc/membrane"), ["fix rbc/membrane", "missing"]),
+    "no law": (dict(membrane=MEMBRANE), ["fix rbc/membrane", "missing"]),
+    "unknown law": (dict(membrane=MEMBRANE + "hooke 1"), ["rbc/membrane", "law", "hooke", "skalak"]),
+    "no such template": (dict(membrane="fix mem all rbc/membrane rb skalak 1 1"), ["Molecule template", "rb ",
+                                                                                  "rbc/membrane", "does not exist"]),
+    "mooney-rivlin too short": (dict(membrane=MEMBRANE + "mooney-rivlin 1 1"), ["rbc/membrane mooney-rivlin",
+                                                                              "missing"]),
+    "C1 negative": (dict(membrane=MEMBRANE + "mooney-rivlin -1 1 1"), ["mooney-rivlin C1", "-1", ">"]),
+    "C1 zero": (dict(membrane=MEMBRANE + "mooney-rivlin 0 1 1"), ["mooney-rivlin C1", "0", "> 0"]),
+    "C2 negative": (dict(membrane=MEMBRANE + "mooney-rivlin 1 -1 1"), ["mooney-rivlin C2", "-1", ">= 0"]),
+    "h negative": (dict(membrane=MEMBRANE + "mooney-rivlin 1 1 -1"), ["mooney-rivlin h", "-1", ">"]),
+    "C1 not a number": (dict(membrane=MEMBRANE + "mooney-rivlin nan 1 1"), ["rbc/membrane", "mooney-rivlin", "nan"]),
+    "C1 no number": (dict(membrane=MEMBRANE + "mooney-rivlin one 1 1"), ["'one'", "rbc/membrane"]),
+    "neo-hookean too short": (dict(membrane=MEMBRANE + "neo-hookean"), ["rbc/membrane neo-hookean", "missing"]),
+    "neo-hookean zero": (dict(membrane=MEMBRANE + "neo-hookean 0"), ["neo-hookean Gs", "0", "> 0"]),
+    "neo-hookean negative": (dict(membrane=MEMBRANE + "neo-hookean -2"), ["neo-hookean Gs", "-2", ">"]),
+    "skalak too short": (dict(membrane=MEMBRANE + "skalak 1"), ["rbc/membrane skalak", "missing"]),
+    "skalak Gs": (dict(membrane=MEMBRANE + "skalak 0 1"), ["skalak Gs", "0", "> 0"]),
+    "skalak C": (dict(membrane=MEMBRANE + "skalak 1 -1"), ["skalak C", "-1", ">= 0"]),
+    "bending missing": (dict(membrane=MEMBRANE + "neo-hookean 1 bending"), ["rbc/membrane bending", "missing"]),
+    "bending negative": (dict(membrane=MEMBRANE + "neo-hookean 1 bending -1"), ["bending", "-1", ">= 0"]),
+    "bending with two curvatures": (dict(membrane=MEMBRANE + "neo-hookean 1 bending 1 0.5 dihedral reference"),
+                                    ["rbc/membrane bending", "reference", "one of reference or c0"]),
+    "bending of two forms": (dict(membrane=MEMBRANE + "neo-hookean 1 bending 1 helfrich dihedral"),
+                             ["rbc/membrane bending", "dihedral", "one of helfrich or dihedral"]),
+    "bending of an unknown form": (dict(membrane=MEMBRANE + "neo-hookean 1 bending 1 hinge"),
+                                   ["rbc/membrane", "keyword", "hinge", "bending, area, volume"]),
+    "crease missing": (dict(membrane=MEMBRANE + "neo-hookean 1 bending 1 crease 1"),
+                       ["rbc/membrane crease", "missing"]),
+    "crease negative": (dict(membrane=MEMBRANE + "neo-hookean 1 bending 1 crease -1 45"), ["crease k", "-1", ">= 0"]),
+    "crease angle": (dict(membrane=MEMBRANE + "neo-hookean 1 bending 1 crease 1 180"),
+                     ["crease angle", "180", "below 180 degrees"]),
+    "crease without bending": (dict(membrane=MEMBRANE + "neo-hookean 1 crease 1 45"), ["crease", "bending modulus > 0"]),
+    "stretch missing": (dict(membrane=MEMBRANE + "neo-hookean 1 stretch 1"), ["rbc/membrane stretch", "missing"]),
+    "stretch negative": (dict(membrane=MEMBRANE + "neo-hookean 1 stretch -1 2"), ["stretch k", "-1", ">= 0"]),
+    "stretch of less than 1": (dict(membrane=MEMBRANE + "neo-hookean 1 stretch 1 0.9"),
+                               ["stretch lambda", "0.9", "above 1"]),
+    "area missing": (dict(membrane=MEMBRANE + "neo-hookean 1 area 1"), ["rbc/membrane area", "missing"]),
+    "area global": (dict(membrane=MEMBRANE + "neo-hookean 1 area -1 1"), ["area kglobal", "-1", ">= 0"]),
+    "area local": (dict(membrane=MEMBRANE + "neo-hookean 1 area 1 -1"), ["area klocal", "-1", ">= 0"]),
+    "volume missing": (dict(membrane=MEMBRANE + "neo-hookean 1 volume"), ["rbc/membrane volume", "missing"]),
+    "volume negative": (dict(membrane=MEMBRANE + "neo-hookean 1 volume -1"), ["volume", "-1", ">= 0"]),
+    "volume neither": (dict(membrane=MEMBRANE + "neo-hookean 1 volume maybe"), ["volume", "maybe", "yes, no"]),
+    "unknown keyword": (dict(membrane=MEMBRANE + "neo-hookean 1 bend 1"), ["rbc/membrane", "keyword", "bend",
+                                                                          "bending, area, volume, swell"]),
+    "swell missing": (dict(membrane=MEMBRANE + "neo-hookean 1 swell"), ["rbc/membrane swell", "missing"]),
+    "swell negative": (dict(membrane=MEMBRANE + "neo-hookean 1 swell -1"), ["swell", "-1", ">"]),
+    "swell zero": (dict(membrane=MEMBRANE + "neo-hookean 1 swell 0"), ["swell", "0", "> 0"]),
+    "swell not a number": (dict(membrane=MEMBRANE + "neo-hookean 1 swell much"), ["much", "rbc/membrane"]),
+    "viscosity without value": (dict(membrane=MEMBRANE + "neo-hookean 1 viscosity"),
+                                ["fix rbc/membrane viscosity", "missing"]),
+    "viscosity negative": (dict(membrane=MEMBRANE + "neo-hookean 1 viscosity -1"), ["rbc/membrane viscosity", "-1", ">= 0"]),
+    "thinning without rate": (dict(membrane=MEMBRANE + "neo-hookean 1 viscosity 2 thinning 1"),
+                              ["fix rbc/membrane viscosity thinning", "missing"]),
+    "thinning to less than nothing": (dict(membrane=MEMBRANE + "neo-hookean 1 viscosity 2 thinning -1 1"),
+                                      ["viscosity thinning eta_inf", "-1", ">= 0"]),
+    "thickening": (dict(membrane=MEMBRANE + "neo-hookean 1 viscosity 2 thinning 2.5 1"),
+                   ["viscosity thinning eta_inf", "2.5", "<= eta_m, 2"]),
+    "thinning at no rate": (dict(membrane=MEMBRANE + "neo-hookean 1 viscosity 2 thinning 1 0"),
+                            ["viscosity thinning rate", "0", "> 0"]),
+    "thinning of no viscosity": (dict(membrane=MEMBRANE + "neo-hookean 1 thinning 1 1"),
+                                 ["rbc/membrane", "keyword", "thinning", "viscosity"]),
+    "swell of nothing": (dict(membrane=MEMBRANE + "neo-hookean 1 volume no swell 1.1"),
+                         ["rbc/membrane swell", "volume yes", "modulus"]),
+    "swell variable unknown": (dict(membrane=MEMBRANE + "neo-hookean 1 swell v_no"), ["rbc/membrane swell", "no ",
+                                                                                     "does not exist"]),
+    "swell variable of atoms": (dict(before="variable f atom x", membrane=MEMBRANE + "neo-hookean 1 swell v_f"),
+                                ["rbc/membrane swell", "equal-style"]),
+    "swell variable zero": (dict(before="variable f equal 0", membrane=MEMBRANE + "neo-hookean 1 swell v_f"),
+                            ["rbc/membrane mem", "swell is 0 at step 0", "> 0"]),
+    "stress-free missing": (dict(membrane=MEMBRANE + "neo-hookean 1 stress-free"), ["rbc/membrane stress-free",
+                                                                                  "missing"]),
+    "stress-free unknown": (dict(membrane=MEMBRANE + "neo-hookean 1 stress-free ball"),
+                            ["Molecule template", "ball", "rbc/membrane stress-free", "does not exist"]),
+    "stress-free of another size": (
+        dict(before=f"molecule ball {POTENTIALS}/capsule_362.mol",
+             membrane=MEMBRANE + "neo-hookean 1 stress-free ball"),
+        ["Molecule template ball", "rbc/membrane stress-free", "triangles of rbc", "362 vertices, not 162"]),
+    "stress-free with other triangles": (
+        dict(before=f"molecule ball {POTENTIALS}/capsule_162.mol",
+             membrane=MEMBRANE + "neo-hookean 1 stress-free ball"),
+        ["Molecule template ball", "rbc/membrane stress-free", "triangles of rbc", "its triangle", "in place of"]),
+    "triclinic": (dict(last="change_box all triclinic", fluid=None, ib=None, thermo=None),
+                  ["rbc/membrane", "orthogonal"]),
+    "minimize": (dict(run="minimize 0 1e-6 10 10", fluid=None, ib=None, thermo=None), ["rbc/membrane", "minimize"]),
+    "two on the same atoms": (dict(last=SHEAR["membrane"].replace("fix mem", "fix two"), fluid=None, ib=None,
+                                   thermo=None),
+                              ["rbc/membrane mem and two", "share atoms"]),
+    "respa": (dict(last="run_style respa 2 2", fluid=None, ib=None, thermo=None), ["rbc/membrane", "respa"]),
+    "cell broken by a group": (dict(before="group half id 1:100", membrane=SHEAR["membrane"].replace("all", "half")),
+                               ["rbc/membrane mem", "molecule ID 1", "100", "162"]),
+    "cell broken by delete_atoms": (dict(before="group few id 7 9\ndelete_atoms group few compress no"),
+                                    ["rbc/membrane mem", "molecule ID 1", "160", "162"]),
+    "cell broken by delete_atoms after a run": (
+        dict(last="run 0\ngroup few id 7 9\ndelete_atoms group few compress no"),
+        ["rbc/membrane mem", "molecule ID 1", "160", "162"]),
+    "atom of no molecule": (dict(before="create_atoms 1 single 1 1 1"), ["rbc/membrane mem", "1 atoms", "no molecule"]),
+    "atoms of another kind": (dict(before="molecule small " + str(POTENTIALS / "capsule_362.mol") +
+                                   "\nchange_box all x final 0 30 boundary p p f\nrbc/create small single 20 6 6"),
+                              ["rbc/membrane mem", "molecule ID 2", "362", "162"]),
+    "IDs not consecutive": (dict(before="change_box all x final 0 30\nrbc/create rbc single 20 6 6\n"
+                                 "set atom 162 mol 2\nset atom 163 mol 1"),
+                            ["rbc/membrane mem", "molecule ID 1", "consecutive", "1 to 163"]),
+    "no molecule IDs": (dict(style="atom_style atomic", create_box="create_box 1 box", molecule=None, cells=None,
+                             membrane="molecule rbc " + str(POTENTIALS / "rbc_162.mol") + "\n" + SHEAR["membrane"]),
+                        ["olecule"]),
+    "no atom map": (dict(style="atom_style molecular\natom_modify id no", cells="mass 1 1"),
+                    ["requires", "atom", "ID"]),
+}
+
+CELL_ERRORS = {
+    "argument": (dict(compute="compute c all rbc/cell volume"), ["compute rbc/cell", "volume", "none"]),
+    "no membrane": (dict(membrane=None, compute="compute c all rbc/cell",
+                         thermo="thermo_style custom step c_c[1][1]"), ["rbc/cell c", "needs a fix rbc/membrane"]),
+    "row that is not there": (dict(compute="compute c all rbc/cell", thermo="thermo_style custom step c_c[2][1]"),
+                              ["compute array", "out-of-range"]),
+}
+
+AGGREGATE = "compute a all rbc/aggregate "
+AGGREGATE_ERRORS = {
+    "no gap": (dict(compute=AGGREGATE), ["compute rbc/aggregate", "missing"]),
+    "gap no number": (dict(compute=AGGREGATE + "near"), ["near", "rbc/aggregate"]),
+    "gap zero": (dict(compute=AGGREGATE + "0"), ["rbc/aggregate", "gap 0", "> 0"]),
+    "gap negative": (dict(compute=AGGREGATE + "-0.2"), ["rbc/aggregate", "gap -0.2", "> 0"]),
+    "gap not a number": (dict(compute=AGGREGATE + "nan"), ["rbc/aggregate", "nan"]),
+    "gap infinite": (dict(compute=AGGREGATE + "inf"), ["rbc/aggregate", "inf"]),
+    "unknown keyword": (dict(compute=AGGREGATE + "0.2 volume 0.1"), ["rbc/aggregate", "keyword", "volume", "area"]),
+    "area missing": (dict(compute=AGGREGATE + "0.2 area"), ["compute rbc/aggregate area", "missing"]),
+    "area zero": (dict(compute=AGGREGATE + "0.2 area 0"), ["rbc/aggregate", "area 0", "above 0", "at most 1"]),
+    "area percent": (dict(compute=AGGREGATE + "0.2 area 10"), ["rbc/aggregate", "area 10", "above 0", "at most 1"]),
+    "area not a number": (dict(compute=AGGREGATE + "0.2 area nan"), ["rbc/aggregate", "area", "nan"]),
+    "no membrane": (dict(membrane=None, compute=AGGREGATE + "0.2", thermo="thermo_style custom step c_a[1]"),
+                    ["rbc/aggregate a", "needs a fix rbc/membrane"]),
+    "triclinic": (dict(last="change_box all triclinic", fluid=None, ib=None, membrane=None, thermo=None,
+                       compute=AGGREGATE + "0.2"), ["rbc/aggregate a", "orthogonal"]),
+    "ghost cutoff too short": (dict(compute=AGGREGATE + "0.2", before="comm_modify cutoff 2.5", ib=None, fluid=None,
+                                    thermo=None),
+                               ["rbc/aggregate a", "ghost cutoff 2.5", "0.2", "comm_modify cutoff"]),
+    "too few rows": (dict(compute=AGGREGATE + "0.2", thermo="thermo_style custom step c_a[2][1]"),
+                     ["compute array", "out-of-range"]),
+}
+
+CREATE_ERRORS = {
+    "before the box": (dict(box=CREATE + "single 6 6 6", molecule=None, cells=None),
+                       ["rbc/create", "after the simulation box"]),
+    "no molecule IDs": (dict(style="atom_style atomic", create_box="create_box 1 box", molecule=None),
+                        ["rbc/create", "molecule IDs", "atom_style molecular"]),
+    "triclinic": (dict(box="region box prism 0 12 0 12 0 12 2 0 0"), ["rbc/create", "orthogonal"]),
+    "no arguments": (dict(cells="rbc/create rbc"), ["rbc/create", "missing"]),
+    "no such template": (dict(cells="rbc/create white single 6 6 6"), ["Molecule template", "white", "rbc/create",
+                                                                    "does not exist"]),
+    "no placement": (dict(cells=CREATE + "seed 1"), ["rbc/create", "needs one of single, number and hematocrit"]),
+    "two placements": (dict(cells=CREATE + "single 6 6 6 number 4 seed 1"), ["rbc/create", "only one of"]),
+    "single missing": (dict(cells=CREATE + "single 6 6"), ["rbc/create single", "missing"]),
+    "single no number": (dict(cells=CREATE + "single 6 6 z"), ["'z'", "rbc/create"]),
+    "single not a number": (dict(cells=CREATE + "single nan 6 6"), ["rbc/create", "single", "nan"]),
+    "single outside": (dict(cells=CREATE + "single 6 6 11.9"), ["rbc/create single", "z", "outside", "12"]),
+    "rotate missing": (dict(cells=CREATE + "single 6 6 6 rotate 30 1 0"), ["rbc/create rotate", "missing"]),
+    "rotate without single": (dict(cells=CREATE + "rotate 30 1 0 0 number 1"), ["rbc/create rotate", "single"]),
+    "rotate without axis": (dict(cells=CREATE + "single 6 6 6 rotate 30 0 0 0"),
+                            ["rbc/create rotate", "axis", "0 0 0"]),
+    "number missing": (dict(cells=CREATE + "seed 1 number"), ["rbc/create number", "missing"]),
+    "number zero": (dict(cells=CREATE + "number 0 seed 1"), ["rbc/create number", "0", "> 0"]),
+    "number no integer": (dict(cells=CREATE + "number 1.5 seed 1"), ["1.5", "integer"]),
+    "hematocrit missing": (dict(cells=CREATE + "seed 1 hematocrit"), ["rbc/create hematocrit", "missing"]),
+    "hematocrit zero": (dict(cells=CREATE + "hematocrit 0 seed 1"), ["hematocrit", "0", "between 0 and 1"]),
+    "hematocrit percent": (dict(cells=CREATE + "hematocrit 45 seed 1"), ["hematocrit", "45", "between 0 and 1"]),
+    "hematocrit not a number": (dict(cells=CREATE + "hematocrit nan seed 1"), ["rbc/create", "hematocrit", "nan"]),
+    "hematocrit below one cell": (dict(cells=CREATE + "hematocrit 0.001 seed 1"), ["hematocrit", "0.001",
+                                                                              "less than one cell"]),
+    "region missing": (dict(cells=CREATE + "number 1 seed 1 region"), ["rbc/create region", "missing"]),
+    "no such region": (dict(cells=CREATE + "number 1 seed 1 region tube"), ["Region", "tube", "rbc/create",
+                                                                    "does not exist"]),
+    "single with region": (dict(cells=CREATE + "single 6 6 6 region box"), ["rbc/create single", "no region"]),
+    "seed missing": (dict(cells=CREATE + "number 1 seed"), ["rbc/create seed", "missing"]),
+    "no seed": (dict(cells=CREATE + "number 1"), ["rbc/create", "need a seed"]),
+    "seed negative": (dict(cells=CREATE + "number 1 seed -5"), ["rbc/create seed", "-5", "> 0"]),
+    "type missing": (dict(cells=CREATE + "number 1 seed 5 type"), ["rbc/create type", "missing"]),
+    "type too large": (dict(cells=CREATE + "number 1 seed 5 type 2"), ["rbc/create type", "2", "between 1 and 1"]),
+    "overlap missing": (dict(cells=CREATE + "number 1 seed 5 overlap"), ["rbc/create overlap", "missing"]),
+    "overlap zero": (dict(cells=CREATE + "number 1 seed 5 overlap 0"), ["rbc/create overlap", "0", "> 0"]),
+    "overlap infinite": (dict(cells=CREATE + "number 1 seed 5 overlap inf"), ["rbc/create"]),
+    "attempts missing": (dict(cells=CREATE + "number 1 seed 5 attempts"), ["rbc/create attempts", "missing"]),
+    "attempts zero": (dict(cells=CREATE + "number 1 seed 5 attempts 0"), ["rbc/create attempts", "0", "> 0"]),
+    "mix missing": (dict(cells=CREATE + "number 1 seed 5 mix rbc 0.1"), ["rbc/create mix", "missing"]),
+    "no such template in mix": (dict(cells=CREATE + "number 1 seed 5 mix white 0.1 1"),
+                                ["Molecule template", "white", "rbc/create mix", "does not exist"]),
+    "mix fraction zero": (dict(cells=CREATE + "number 1 seed 5 mix rbc 0 1"),
+                          ["rbc/create mix fraction", "0", "between 0 and 1"]),
+    "mix fraction not a number": (dict(cells=CREATE + "number 1 seed 5 mix rbc nan 1"),
+                                  ["rbc/create", "mix", "nan"]),
+    "mix of all": (dict(cells=CREATE + "number 9 seed 5 mix rbc 0.6 1 mix rbc 0.4 1"),
+                   ["rbc/create mix fractions", "add up to less than 1", "not 1"]),
+    "mix type": (dict(cells=CREATE + "number 1 seed 5 mix rbc 0.5 2"),
+                 ["rbc/create type", "2", "between 1 and 1"]),
+    "single with mix": (dict(cells=CREATE + "single 6 6 6 mix rbc 0.5 1"), ["rbc/create single", "no mix"]),
+    "velocity missing": (dict(cells=CREATE + "number 1 seed 5 velocity"), ["rbc/create velocity", "missing"]),
+    "velocity negative": (dict(cells=CREATE + "number 1 seed 5 velocity -1"), ["rbc/create velocity", "-1", ">= 0"]),
+    "single with velocity": (dict(cells=CREATE + "single 6 6 6 velocity 1"), ["rbc/create single", "no velocity"]),
+    "unknown keyword": (dict(cells=CREATE + "number 1 seed 5 colour red"), ["rbc/create", "keyword", "colour",
+                                                                     "single, rotate"]),
+    "too dense": (dict(cells=CREATE + "hematocrit 0.7 seed 5 attempts 100"),
+                  ["rbc/create", "could not pack 14 cells", "100 attempts", "densest reached", "volume fraction",
+                   "wanted"]),
+    "region too small for a cell": (dict(cells="region small block 4 8 4 8 4 8\n" + CREATE +
+                                         "number 1 seed 5 region small"), ["rbc/create", "could not pack 1 cells", "densest"]),
+    "region outside": (dict(cells="region far block 40 80 40 80 40 80\n" + CREATE + "number 1 seed 5 region far"),
+                       ["rbc/create", "region", "far"]),
+}
+
+# Of the octahedron below: triangles, or a change of its vertices
+
+
+class Cells(BadInput):
+    def test_membrane(self):
+        self.check(MEMBRANE_ERRORS)
+
+    def test_compute_cell(self):
+        self.check(CELL_ERRORS)
+
+    def test_compute_aggregate(self):
+        self.check(AGGREGATE_ERRORS)
+
+    def test_create(self):
+        self.check(CREATE_ERRORS)
+
+    def test_create_on_two_ranks(self):
+        some = ["too dense", "single outside", "unknown keyword", "hematocrit below one cell"]
+        self.check({name: CREATE_ERRORS[name] for name in some}, ranks=2)
+
+
+if __name__ == "__main__":
+    unittest.main()
