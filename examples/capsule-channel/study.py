@@ -202,9 +202,9 @@ def report(table):
         print(f"{name}: U {row[0][4]:.4f}, length {row[0][5]:.4f}, width {row[0][6]:.4f}, pressure {row[0][7]:.4f}")
     for ratio, exact in RIGID.items():
         speeds = [table[label({**BASE, **STIFF, "ratio": ratio, "cells": cells})][0][4] for cells in FINER]
-        best = (FINER[-1] * speeds[-1] - FINER[-2] * speeds[-2]) / (FINER[-1] - FINER[-2])
+        best = (FINER[-1]**2 * speeds[-1] - FINER[-2]**2 * speeds[-2]) / (FINER[-1]**2 - FINER[-2]**2)
         print(f"a/R {ratio}: exact {exact:.4f}, errors", *(f"{100 * (speed / exact - 1):+.2f}" for speed in speeds),
-              f"%, extrapolated in dx {100 * (best / exact - 1):+.2f} %")
+              f"%, extrapolated in dx² {100 * (best / exact - 1):+.2f} %")
 
 
 def main():
