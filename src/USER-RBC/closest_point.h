@@ -2,6 +2,7 @@
 
 #include "plain_vector.h"
 
+#include <algorithm>
 #include <array>
 
 namespace rbc {
@@ -43,6 +44,25 @@ inline PlainVector weighted_point(const std::array<double, 3> &weight, PlainVect
                                   PlainVector c)
 {
   return weight[0] * a + weight[1] * b + weight[2] * c;
+}
+
+/// Square of the distance from x to a triangle, without branches: for loops that are to be vectorised.
+inline double triangle_distance_square(PlainVector x, PlainVector a, PlainVector b, PlainVector c)
+{
+  const PlainVector ab = b - a, bc = c - b, ca = a - c;
+  const PlainVector ax = x - a, bx = x - b, cx = x - c;
+  const auto to_edge = [](PlainVector edge, PlainVector from) {
+    const double along = std::min(1.0, std::max(dot(from, edge), 0.0) / dot(edge, edge));
+    const PlainVector apart = from - along * edge;
+    return dot(apart, apart);
+  };
+  const double edges = std::min(std::min(to_edge(ab, ax), to_edge(bc, bx)), to_edge(ca, cx));
+  const PlainVector normal = cross(ab, bc);
+  const double area2 = dot(normal, normal), height = dot(ax, normal);
+  const double least = std::min(std::min(dot(cross(ab, ax), normal), dot(cross(bc, bx), normal)),
+                                dot(cross(ca, cx), normal));
+  const double face = height * height / area2;
+  return (least > 0) & (area2 > 0) ? std::min(face, edges) : edges;
 }
 
 }    // namespace rbc

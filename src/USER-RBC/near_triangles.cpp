@@ -17,6 +17,15 @@ namespace {
 
 constexpr double TOUCHING = 1e-10;
 
+// loops run on into what is no sphere any more, so that they have no rest that is not vectorised
+
+constexpr int LANES = 8;
+
+int whole_lanes(int count)
+{
+  return (count + LANES - 1) / LANES * LANES;
+}
+
 PlainVector at(const double *x, int n)
 {
   return {x[3 * std::size_t(n)], x[3 * std::size_t(n) + 1], x[3 * std::size_t(n) + 2]};
@@ -31,8 +40,8 @@ double square(double s)
 
 void NearTriangles::Spheres::resize(std::size_t size)
 {
-  for (auto *numbers : {&x, &y, &z, &radius}) numbers->resize(size);
-  surface.resize(size);
+  for (auto *numbers : {&x, &y, &z, &radius}) numbers->resize(size + LANES);
+  surface.resize(size + LANES);
   triangle.resize(size);
 }
 
@@ -150,11 +159,11 @@ bool NearTriangles::any_seen(int first_bin, int last_bin, Surface unseen) const
 
 void NearTriangles::find_hits(const SpatialBins &bins, PlainVector p, Surface unseen, double far)
 {
-  hits_.clear();
+  hit_count_ = 0;
   const int j0 = bins.along(1, p.y - far), j1 = bins.along(1, p.y + far);
   const int k0 = bins.along(2, p.z - far), k1 = bins.along(2, p.z + far);
   constexpr int most = 64;
-  char hit[most];
+  std::int64_t hit[most];    // as wide as all others in the loop
   for (int k = k0; k <= k1; ++k)
     for (int j = j0; j <= j1; ++j) {
       const double left =
@@ -170,27 +179,46 @@ void NearTriangles::find_hits(const SpatialBins &bins, PlainVector p, Surface un
         const double *const x = &spheres_.x[first], *const y = &spheres_.y[first],
                             *const z = &spheres_.z[first], *const radius = &spheres_.radius[first];
         const Surface *const surface = &spheres_.surface[first];
-        for_each(count, [&](int n) {
+        for_each(whole_lanes(count), [&](int n) {
           const double apart2 = square(x[n] - p.x) + square(y[n] - p.y) + square(z[n] - p.z);
           hit[n] = (apart2 <= square(reach_ + radius[n])) & (surface[n] != unseen);
         });
-        for (int n = 0; n < count; ++n)
-          if (hit[n]) hits_.push_back(spheres_.triangle[first + n]);
+        if (hits_.size() < std::size_t(hit_count_ + most)) hits_.resize(2 * (hit_count_ + most));
+        for (int n = 0; n < count; ++n) {    // without branches: hits come at random
+          hits_[hit_count_] = spheres_.triangle[first + n];
+          hit_count_ += hit[n];
+        }
       }
     }
 }
 
 void NearTriangles::add_candidates(const double *x, int point)
 {
-  const PlainVector p = at(x, point);
   const std::size_t first = candidates_.size();
-  for (int t : hits_) {
-    const Triangle &triangle = triangles_[t];
-    if (triangle.surface == surfaces_[point] && !sees_own_(point, t)) continue;
-    const PlainVector a = at(x, triangle.corner[0]), b = at(x, triangle.corner[1]),
-                      c = at(x, triangle.corner[2]);
-    const double distance = norm(p - weighted_point(closest_point_weights(p, a, b, c), a, b, c));
-    if (distance <= reach_) candidates_.push_back({triangle.surface, distance, t});
+  constexpr int most = 16;
+  double corner[9][most], distance2[most];
+  for (int begin = 0; begin < hit_count_; begin += most) {
+    const int count = std::min(most, hit_count_ - begin);
+    for (int n = 0; n < most; ++n) {    // the rest is filled up, so that loops have one length
+      const Triangle &triangle = triangles_[hits_[begin + std::min(n, count - 1)]];
+      for (int c = 0; c < 3; ++c)
+        for (int d = 0; d < 3; ++d)
+          corner[3 * c + d][n] = x[3 * std::size_t(triangle.corner[c]) + d];
+    }
+    const PlainVector p = at(x, point);
+    for_each(most, [&](int n) {
+      const auto of = [&](int c) {
+        return PlainVector{corner[c][n], corner[c + 1][n], corner[c + 2][n]};
+      };
+      distance2[n] = triangle_distance_square(p, of(0), of(3), of(6));
+    });
+    for (int n = 0; n < count; ++n) {
+      const int t = hits_[begin + n];
+      const Surface surface = triangles_[t].surface;
+      if (!(distance2[n] <= square(reach_))) continue;
+      if (surface == surfaces_[point] && !sees_own_(point, t)) continue;
+      candidates_.push_back({surface, std::sqrt(distance2[n]), t});
+    }
   }
   std::sort(candidates_.begin() + first, candidates_.end(),
             [](const Candidate &a, const Candidate &b) {

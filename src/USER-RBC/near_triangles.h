@@ -103,6 +103,7 @@ class NearTriangles {
   Spheres spheres_;
   std::vector<SurfaceRange> in_bin_, around_bin_, scratch_;    // around: with the bins next to it
   std::vector<int> bin_begin_, bin_of_, next_, hits_;
+  int hit_count_ = 0;
   std::vector<Group> groups_;
   std::vector<Candidate> candidates_;
   std::vector<Contact> contacts_;
