@@ -14,9 +14,10 @@ namespace rbc {
 
 namespace {
 
-// cosine of the angle between the normals of two triangles: 175 degrees
+// cosines of the angle between the normals of two triangles: 175 degrees; 120 degrees, to all neighbors of an inverted one.
+// In a wrinkle as narrow as a triangle that one stands upright, 90 degrees from all of them, and comes back.
 
-constexpr double SHARPEST_FOLD = -0.9962;
+constexpr double SHARPEST_FOLD = -0.9962, FOLDED_OVER = -0.5;
 
 inline PlainVector position(const double *x, int vertex)
 {
@@ -90,7 +91,7 @@ std::string MembraneModel::find_flaw()
   std::fill(folded_.begin(), folded_.end(), 0);
   for (int e = 0; e < hinges; ++e) {
     const double cosine = dot(normal_[left[e]], normal_[right[e]]);
-    if (cosine >= 0) continue;
+    if (cosine >= FOLDED_OVER) continue;
     if (cosine < SHARPEST_FOLD && flaw.empty())
       flaw = "triangles " + number(left[e]) + " and " + number(right[e]) +
              " are folded onto each other";

@@ -321,6 +321,7 @@ bool SteadySteps::attempt()
   }
 
   std::string flaw;
+  position_ = start_;
   motion_.stop->trying = true;
   try {
     move();
@@ -333,6 +334,11 @@ bool SteadySteps::attempt()
   }
   motion_.stop->trying = false;
   if (flaw.empty() && local_error_ <= control_.tolerance) return true;
+  if (automatic_stages_) {
+    motion_.load(store_->astore, middle_, mode_column());
+    spectrum_.suspect(motion_, start_, position_, velocity_, middle_);
+    motion_.store(middle_, store_->astore, mode_column());
+  }
 
   ++rejected_;
   if (!flaw.empty()) {

@@ -24,4 +24,19 @@ double SpectralRadius::estimate(Motion &motion, const Numbers &x, const Numbers 
   return radius;
 }
 
+void SpectralRadius::suspect(const Motion &motion, const Numbers &start, const Numbers &end,
+                             const Numbers &velocity, Numbers &mode)
+{
+  const std::size_t n = start.size();
+  changed_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) changed_[i] = end[i] - start[i];
+  const double square = dot(motion, velocity, velocity);
+  const double time = square > 0 ? dot(motion, changed_, velocity) / square : 0;
+  for (std::size_t i = 0; i < n; ++i) changed_[i] -= time * velocity[i];
+  const double grown = root_mean_square(motion, changed_), known = root_mean_square(motion, mode);
+  if (!(grown > 0 && std::isfinite(grown))) return;
+  const double share = known > 0 ? 1 / known : 0;
+  for (std::size_t i = 0; i < n; ++i) mode[i] = share * mode[i] + changed_[i] / grown;
+}
+
 }    // namespace rbc

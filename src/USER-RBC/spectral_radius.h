@@ -19,6 +19,12 @@ class SpectralRadius {
   double estimate(Motion &motion, const Numbers &x, const Numbers &velocity, double size,
                   Numbers &mode);
 
+  /// A step from `start` to `end` went wrong: if it was unstable it grew along the fastest mode, of which the last one
+  /// found may hold nothing. What it moved points by, other than along their `velocity` at its start, becomes part of
+  /// the guess.
+  void suspect(const Motion &motion, const Numbers &start, const Numbers &end,
+               const Numbers &velocity, Numbers &mode);
+
  private:
   Numbers displaced_, changed_;
 };

@@ -220,6 +220,19 @@ TEST(Flaw, FoldsBeyond175DegreesAreFound)
   }
 }
 
+/// A pyramid over a triangle, which is folded against all others by the angle whose tangent is that of the height over
+/// the radius of the inscribed circle, less than half a turn.
+TEST(Flaw, TrianglesFoldedByMoreThan120DegreesAgainstAllNeighborsAreInverted)
+{
+  const double pi = std::acos(-1.0), root = std::sqrt(3.0);
+  for (double fold : {95.0, 109.5, 119.9, 120.1, 150.0}) {
+    const double height = 0.5 * std::tan((180 - fold) * pi / 180);
+    const Vertices x = {{1, 0, 0}, {-0.5, -root / 2, 0}, {-0.5, root / 2, 0}, {0, 0, height}};
+    const rbc::SurfaceTemplate shape(x, {{0, 1, 2}, {1, 0, 3}, {2, 1, 3}, {0, 2, 3}});
+    EXPECT_EQ(find_flaw(shape, x), fold < 120 ? "" : is_inverted(0)) << fold;
+  }
+}
+
 TEST(Flaw, InvertedTriangleIsFoundByAnOwnerOfTwoOfItsCorners)
 {
   const rbc::SurfaceTemplate shape = disc(4).surface();

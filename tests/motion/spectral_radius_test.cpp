@@ -1,8 +1,10 @@
 #include "spectral_radius.h"
 
+#include "chebyshev.h"
 #include "test_motion.h"
 
 #include <gtest/gtest.h>
+#include <limits>
 
 using rbc::Numbers;
 
@@ -59,6 +61,38 @@ TEST(SpectralRadius, FindsAModeThatTheGuessHardlyHolds)
   EXPECT_NEAR(spectrum.estimate(motion, x, v, 1e-4, again), 1, 0.01);
   spectrum.min_iterations = 20;
   EXPECT_NEAR(spectrum.estimate(motion, x, v, 1e-4, mode), 2, 0.04);
+}
+
+/// A mode that has become the fastest since the last estimate, which goes on finding the one that was.
+TEST(SpectralRadius, FindsTheModeAlongWhichAnUnstableStepGrew)
+{
+  const double slow = 1, fast = 9;
+  test::GivenMotion motion([&](const Numbers &x, double, Numbers &v) {
+    for (std::size_t i = 0; i < x.size(); ++i) v[i] = (i == 7 ? -fast : -slow) * x[i];
+  });
+  Numbers start(30, 1.0), v(30), end, mode(30, 1.0);
+  start[7] = 1e-3;    // hardly excited
+  mode[7] = 0;
+  motion.velocity(start, 0, v);
+  rbc::SpectralRadius spectrum;
+  const double before = spectrum.estimate(motion, start, v, 1e-4, mode);
+  EXPECT_NEAR(before, slow, 1e-6);
+
+  rbc::ChebyshevMethod method;
+  const double dt = 10;
+  method.set_stages(method.stages_for(dt * before));
+  method.step(motion, dt, start, v, rbc::Path(), end);
+  ASSERT_GT(std::abs(end[7]), 1);    // unstable
+  spectrum.suspect(motion, start, end, v, mode);
+  EXPECT_NEAR(spectrum.estimate(motion, start, v, 1e-4, mode), fast, 0.02 * fast);
+
+  // nothing to learn from a step that did not move, or went to infinity
+  const Numbers known = mode;
+  spectrum.suspect(motion, start, start, v, mode);
+  EXPECT_EQ(mode, known);
+  end[3] = std::numeric_limits<double>::infinity();
+  spectrum.suspect(motion, start, end, v, mode);
+  EXPECT_EQ(mode, known);
 }
 
 TEST(SpectralRadius, IsZeroWhereNothingDependsOnPositions)
