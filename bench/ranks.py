@@ -5,6 +5,7 @@ Writes ranks.csv and ranks.png; the executables come from the environment (LMP_R
 """
 import argparse
 import csv
+import itertools
 import os
 import sys
 import tempfile
@@ -58,9 +59,9 @@ def draw(rows, path):
     figure = Figure(figsize=(8, 5), layout="constrained")
     axes = figure.subplots()
     for n, name in enumerate(SCENES):
-        mine = [row for row in rows if row["scene"] == name and row["step"] > 0]
+        mine = [row for row in rows if row["scene"] == name and int(row["step"]) > 0]
         for ranks, style in zip(RANKS[1:], ("-", "--")):
-            axes.semilogy([row["step"] for row in mine], [float(row[f"apart_{ranks}_ranks"]) for row in mine],
+            axes.semilogy([int(row["step"]) for row in mine], [float(row[f"apart_{ranks}_ranks"]) for row in mine],
                           style, color=f"C{n}", label=f"{name}, {ranks} ranks")
     axes.axhline(BOUND, color="0.6", lw=1)
     axes.set(xlabel="step", ylabel="largest distance from a vertex on 1 rank (diameters)")
@@ -71,17 +72,23 @@ def draw(rows, path):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--only", nargs="*", choices=SCENES, default=list(SCENES), help="scenes to run")
+    parser.add_argument("--only", nargs="*", choices=SCENES, default=list(SCENES),
+                        help="scenes to run; of others ranks.csv keeps its rows")
+    path, only = HERE / "ranks.csv", parser.parse_args().only
     rows = []
+    if path.exists():
+        with open(path, newline="", encoding="ascii") as file:
+            rows = [row for row in csv.DictReader(file) if row["scene"] not in only]
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        for name in parser.parse_args().only:
+        for name in only:
             mine = compare(name)
             rows += mine
-            below = [row for row in mine if max(float(row[f"apart_{ranks}_ranks"]) for ranks in RANKS[1:]) < BOUND]
+            below = list(itertools.takewhile(
+                lambda row: max(float(row[f"apart_{ranks}_ranks"]) for ranks in RANKS[1:]) < BOUND, mine))
             print(f"{name}: below {BOUND:g} diameters to step {below[-1]['step']} (moved {below[-1]['moved_diameters']}); "
                   "at the end", mine[-1], flush=True)
-    with open(HERE / "ranks.csv", "w", newline="", encoding="ascii") as file:
+    with open(path, "w", newline="", encoding="ascii") as file:
         writer = csv.DictWriter(file, rows[0].keys(), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)

@@ -33,6 +33,12 @@ def read_slices(path):
     return np.array([int(block[0][0]) for block in blocks]), table[0, :, 0], table[:, :, 1]
 
 
+def mean_over_time(time, values):
+    """By the trapezoidal rule, as timesteps differ; rows of values belong to times."""
+    weights = np.diff(time)
+    return weights @ (values[1:] + values[:-1]) / (2 * weights.sum())
+
+
 def draw(folders, path):
     figure, axes = plt.subplots(2, 2, figsize=(10, 6.6), sharey="row")
     for column, (folder, title) in enumerate(zip(folders, TITLES)):
@@ -42,10 +48,11 @@ def draw(folders, path):
             top.step(table["v_seconds"], table[name], where="post", color=color, label=f"BLOCK {name[-1]}")
         top.set(title=title, xlabel="time / s", ylabel="cells in a block" if column == 0 else None)
         top.legend(frameon=False, fontsize=8, ncol=3)
-        _, x, vertices = read_slices(folder / "slices.dat")
-        half = len(vertices) // 2
+        steps, x, vertices = read_slices(folder / "slices.dat")
+        time = np.interp(steps, table["TimeStep"], table["v_seconds"])
+        last = time > time[-1] / 2
         bottom.step(x, vertices[0] / VERTICES, where="mid", color="0.6", label="at the start")
-        bottom.step(x, vertices[half:].mean(axis=0) / VERTICES, where="mid", color="k", label="mean over the second half")
+        bottom.step(x, mean_over_time(time[last], vertices[last]) / VERTICES, where="mid", color="k", label="mean over the second half")
         bottom.set(xlabel="x / µm (flow to the right)", ylabel="cells in a slice of D/2" if column == 0 else None)
         bottom.legend(frameon=False, fontsize=8)
     for left in axes[:, 0]:    # both columns share its limits
@@ -69,10 +76,11 @@ def main():
             gone = table["v_passed"] - table["v_passed"][0]
             writer.writerows((vessel, f"{t:.5f}", *(f"{n:g}" for n in counts), f"{u:.4g}", f"{g:.4f}") for t, *counts, u, g in
                              zip(table["v_seconds"], *(table[name] for name in BLOCKS), table["v_u"], gone))
-            last = table["v_seconds"] > table["v_seconds"][-1] / 2
-            print(f"{vessel}: {table['v_seconds'][-1]:.3f} s, cells went {gone[-1]:.2f} lengths; mean of the second half:",
-                  *(f"BLOCK {name[-1]} {table[name][last].mean():.2f}" for name in BLOCKS),
-                  f"velocity {table['v_u'][last].mean():.1f} um/s")
+            time = table["v_seconds"]
+            last = time > time[-1] / 2
+            print(f"{vessel}: {time[-1]:.3f} s, cells went {gone[-1]:.2f} lengths; mean of the second half:",
+                  *(f"BLOCK {name[-1]} {mean_over_time(time[last], table[name][last]):.2f}" for name in BLOCKS),
+                  f"velocity {mean_over_time(time[last], table['v_u'][last]):.1f} um/s")
     draw(folders, arguments.output)
 
 

@@ -52,6 +52,7 @@ inline double triangle_distance_square(PlainVector x, PlainVector a, PlainVector
   const PlainVector ab = b - a, bc = c - b, ca = a - c;
   const PlainVector ax = x - a, bx = x - b, cx = x - c;
   const auto to_edge = [](PlainVector edge, PlainVector from) {
+    // in this order 0 / 0, of an edge without length, becomes 1
     const double along = std::min(1.0, std::max(dot(from, edge), 0.0) / dot(edge, edge));
     const PlainVector apart = from - along * edge;
     return dot(apart, apart);

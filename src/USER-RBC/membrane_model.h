@@ -67,8 +67,8 @@ class MembraneModel {
   /// dV/dx of the vertices owned (others are left undefined), an entry for each vertex of the template.
   void volume_gradient(Vec3 *gradient) const;
 
-  /// Says which triangle lies folded over against all three neighbours, or which two are folded onto each other: the mesh
-  /// does not resolve the shape, or parts of it have passed through others. Empty if there are none.
+  /// Says which triangle is folded over by more than 120 degrees against all three neighbours, or which two are folded onto
+  /// each other: the mesh does not resolve the shape, or parts of it have passed through others. Empty if there are none.
   std::string find_flaw();
 
   /// Forces on the vertices owned (others are left undefined) and this rank's share of the energy. `size` is that of

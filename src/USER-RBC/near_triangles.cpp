@@ -163,6 +163,7 @@ void NearTriangles::find_hits(const SpatialBins &bins, PlainVector p, Surface un
   const int j0 = bins.along(1, p.y - far), j1 = bins.along(1, p.y + far);
   const int k0 = bins.along(2, p.z - far), k1 = bins.along(2, p.z + far);
   constexpr int most = 64;
+  static_assert(most % LANES == 0);
   std::int64_t hit[most];    // as wide as all others in the loop
   for (int k = k0; k <= k1; ++k)
     for (int j = j0; j <= j1; ++j) {

@@ -25,7 +25,8 @@ static constexpr int SHORTEST_INTERVAL = 5, LONGEST_INTERVAL = 50;
 static constexpr double STEADY_CHANGE = 0.01, FAST_CHANGE = 0.03;
 static constexpr double RADIUS_SAFETY = 1.06, LARGEST_RADIUS_GROWTH = 1.5;
 static constexpr double RADIUS_DISPLACEMENT = 1.0e-5;
-static constexpr int GUESS_ITERATIONS = 20;    // without a mode of an earlier estimate
+static constexpr int GUESS_ITERATIONS = 20;      // without a mode of an earlier estimate
+static constexpr int SUSPECT_ITERATIONS = 10;    // after a step that was refused
 
 // third order: largest ratio of a timestep to the one before, parts of a step without a past
 
@@ -75,6 +76,7 @@ void SteadySteps::start_run(FixRBCFluid *fluid, bool forces_change)
   raw_radius_ = 0;
   estimated_step_ = -1;
   rejected_ = failed_ = 0;
+  suspected_ = false;
   if (!control_.active()) return;
   const bool changed = update->dt != last_dt_ && !restarted_;    // by the user
   if (next_dt_ == 0 || changed) next_dt_ = update->dt;
@@ -223,7 +225,8 @@ void SteadySteps::estimate_radius()
 {
   motion_.load(store_->astore, middle_, mode_column());
   const bool known = dot(motion_, middle_, middle_) > 0;
-  spectrum_.min_iterations = known ? 1 : GUESS_ITERATIONS;
+  spectrum_.min_iterations = !known ? GUESS_ITERATIONS : suspected_ ? SUSPECT_ITERATIONS : 1;
+  suspected_ = false;
   if (!known) {
     // a guess without any symmetry
     const std::vector<int> &members = motion_.members();
@@ -338,6 +341,7 @@ bool SteadySteps::attempt()
     motion_.load(store_->astore, middle_, mode_column());
     spectrum_.suspect(motion_, start_, position_, velocity_, middle_);
     motion_.store(middle_, store_->astore, mode_column());
+    suspected_ = true;
   }
 
   ++rejected_;

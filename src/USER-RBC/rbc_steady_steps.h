@@ -74,7 +74,8 @@ class SteadySteps : protected Pointers {
   bool automatic_stages_ = false;
   rbc::SpectralRadius spectrum_;
   double radius_ = 0;
-  double raw_radius_ = 0;    // the last estimate as it was
+  double raw_radius_ = 0;     // the last estimate as it was
+  bool suspected_ = false;    // the mode has a part that a step refused has grown by
   bigint radius_step_ = -1,
          estimated_step_ = -1;    // the former is forgotten when a step is rejected
   int radius_interval_ = 0;

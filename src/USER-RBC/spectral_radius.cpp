@@ -35,7 +35,8 @@ void SpectralRadius::suspect(const Motion &motion, const Numbers &start, const N
   for (std::size_t i = 0; i < n; ++i) changed_[i] -= time * velocity[i];
   const double grown = root_mean_square(motion, changed_), known = root_mean_square(motion, mode);
   if (!(grown > 0 && std::isfinite(grown))) return;
-  const double share = known > 0 ? 1 / known : 0;
+  const double sign = dot(motion, mode, changed_) < 0 ? -1 : 1;    // they must not cancel
+  const double share = known > 0 ? sign / known : 0;
   for (std::size_t i = 0; i < n; ++i) mode[i] = share * mode[i] + changed_[i] / grown;
 }
 

@@ -193,12 +193,10 @@ TEST(Flaw, HealthyCellsHaveNone)
 
 TEST(Flaw, SharpTipsAreHealthy)
 {
-  // A cube drawn out along its diagonal: at the tips triangles are folded over two of their edges.
-  const rbc::SurfaceTemplate shape = cuboid({1, 1, 1}, 1).surface();
-  const Vec3 diagonal(1, 1, -1);
-  const Matrix3 stretch = Matrix3::Identity() + 2.0 / 3 * diagonal * diagonal.transpose();
-  const Vertices x = transformed(shape.vertices, [&](const Vec3 &v) { return Vec3(stretch * v); });
-  EXPECT_EQ(find_flaw(shape, x), "");
+  // A tall pyramid over a flat triangle: one side is folded over two of its edges by 150 degrees, by 90 over the third.
+  const Vertices x = {{-1, 0, 0}, {1, 0, 0}, {0, 0.577, 0}, {0, 0.19, 5}};
+  EXPECT_EQ(find_flaw(rbc::SurfaceTemplate(x, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}), x),
+            "");
 }
 
 /// A bipyramid over a square, pressed flat: at its rim the triangles are folded by twice the angle whose tangent is the
@@ -220,8 +218,8 @@ TEST(Flaw, FoldsBeyond175DegreesAreFound)
   }
 }
 
-/// A pyramid over a triangle, which is folded against all others by the angle whose tangent is that of the height over
-/// the radius of the inscribed circle, less than half a turn.
+/// A pyramid over a triangle, which is folded against all others by half a turn less the angle whose tangent is the height
+/// over the radius of the inscribed circle.
 TEST(Flaw, TrianglesFoldedByMoreThan120DegreesAgainstAllNeighborsAreInverted)
 {
   const double pi = std::acos(-1.0), root = std::sqrt(3.0);

@@ -222,8 +222,6 @@ CREATE_ERRORS = {
                        ["rbc/create", "region", "far"]),
 }
 
-# Of the octahedron below: triangles, or a change of its vertices
-
 
 class Cells(BadInput):
     def test_membrane(self):

@@ -25,6 +25,8 @@ def shifted(triangles, by):
     return [tuple(v + by for v in triangle) for triangle in triangles]
 
 
+# of the octahedron: vertices, triangles, words of the message
+
 TEMPLATES = {
     "open": (CORNERS, OCTAHEDRON[:-1], ["edge", "one triangle only", "not closed"]),
     "inward": (CORNERS, [(i, k, j) for i, j, k in OCTAHEDRON], ["oriented inward"]),
