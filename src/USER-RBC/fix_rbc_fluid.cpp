@@ -194,7 +194,16 @@ void FixRBCFluid::find_walls()
   if (!has_inertia() && settings.free_mean)
     error->all(FLERR, "Fix rbc/fluid mean force needs inertia unsteady or convective, or a fix "
                       "rbc/wall: without them a net force has nothing to accelerate or to act on");
-  if (!holds_box_mean() || drive.held_direction() >= 0 || comm->me != 0) return;
+  if (!holds_box_mean() || comm->me != 0) return;
+  if (drive.held_direction() >= 0) {
+    if (!settings.inside.empty())
+      error->warning(
+          FLERR,
+          "Fix rbc/fluid {} inside {}: there is no fix rbc/wall to keep the flow inside, "
+          "that of the whole box is held",
+          id, settings.inside);
+    return;
+  }
   for (const NumberOrVariable &component : drive.body)
     if (component.is_variable() || component.value(lmp) != 0) {
       error->warning(FLERR, "Fix rbc/fluid body has no effect in a triply periodic box whose "

@@ -57,6 +57,8 @@ RegionRBCMesh::RegionRBCMesh(LAMMPS *lmp, int narg, char **arg) : Region(lmp, na
     error->all(FLERR, 2, "Region rbc/mesh file {}: {}", arg[2], problem.what());
   }
 
+  if (domain->box_exist) warn_if_beyond_box(arg[2]);
+
   bboxflag = interior;
   if (bboxflag) {
     extent_xlo = solid->lo()[0];
@@ -100,6 +102,23 @@ std::vector<Triangle> RegionRBCMesh::read(const std::string &path) const
   static_assert(sizeof(Triangle) == 9 * sizeof(double), "triangles are sent as numbers");
   MPI_Bcast(triangles.data(), 9 * sizes[0], MPI_DOUBLE, 0, world);
   return triangles;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RegionRBCMesh::warn_if_beyond_box(const char *file) const
+{
+  if (comm->me != 0) return;
+  for (int d = 0; d < 3; ++d) {
+    if (solid->periodic()[d] ||
+        (solid->lo()[d] >= domain->boxlo[d] && solid->hi()[d] <= domain->boxhi[d]))
+      continue;
+    error->warning(FLERR,
+                   "Region rbc/mesh file {} extends from {:.6g} to {:.6g} in {}, beyond the box "
+                   "({:.6g} to {:.6g}), where it does not go on: is a shift missing?",
+                   file, solid->lo()[d], solid->hi()[d], "xyz"[d], domain -> boxlo[d],
+                   domain -> boxhi[d]);
+  }
 }
 
 /* ---------------------------------------------------------------------- */

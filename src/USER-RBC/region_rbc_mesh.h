@@ -30,6 +30,7 @@ class RegionRBCMesh : public Region {
   std::unique_ptr<rbc::TriangulatedSolid> solid;
 
   std::vector<rbc::Triangle> read(const std::string &) const;
+  void warn_if_beyond_box(const char *) const;
   bool has_openings() const;
   int add_nearest(double *, double, bool);
 };

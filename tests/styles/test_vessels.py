@@ -106,6 +106,10 @@ class Mesh(Case):
         self.error("Region rbc/mesh takes no open faces", before=MESH + " open 1")
         self.error("Region rbc/mesh scale -1 must be > 0", before="region tube rbc/mesh ../tube.stl scale -1")
         self.error("Illegal region rbc/mesh shift command", before="region tube rbc/mesh ../tube.stl shift 1 2")
+        beyond = vessel(before="region tube rbc/mesh ../tube.stl").printed
+        for way, radius_there in (("y", "9"), ("z", "8.99658")):
+            self.assertIn(f"extends from -{radius_there} to {radius_there} in {way}, beyond the box", beyond)
+        self.assertNotIn("beyond the box", vessel(before=MESH).printed)
         self.error("has changed since the region was defined",
                    before=MESH + "\ncreate_atoms 1 random 10 1 tube\nchange_box all x final 0 30\n"
                                  "fix wall all wall/region tube harmonic 0.5 0 1.0")
@@ -214,9 +218,13 @@ SLIT = dict(boundary="boundary p p f", before="region tube block INF INF 5 15 IN
             thermo="thermo_style custom step f_flow[*]", every="thermo 1", dump=None, run="run 4")
 
 
-def slit(words, ranks=1, walls="wall zlo 0 0 0 wall zhi 0 0 0", **changes):
+def run_slit(words, ranks=1, walls="wall zlo 0 0 0 wall zhi 0 0 0", **changes):
     fluid = f"fix flow all rbc/fluid dx 1.0 viscosity 1.5 density 1.025 {walls} {words}"
-    return vessel(ranks, **{**SLIT, "fluid": fluid, **changes}).thermo
+    return vessel(ranks, **{**SLIT, "fluid": fluid, **changes})
+
+
+def slit(*words, **changes):
+    return run_slit(*words, **changes).thermo
 
 
 class Drive(Case):
@@ -251,7 +259,9 @@ class Drive(Case):
         """Held by the mean velocity of the box; a force on a bead is what the gradient has to balance."""
         lines = dict(boundary="boundary p p p", cells="create_atoms 1 single 9 10 6\nfix pull all addforce 0.02 0 0",
                      ib="fix ib all rbc/ib flow", timestep="timestep 10")
-        thermo = slit("mean x 0.01 inside tube", walls="", **lines)
+        result = run_slit("mean x 0.01 inside tube", walls="", **lines)
+        self.assertIn("WARNING: Fix rbc/fluid flow inside tube: there is no fix rbc/wall", result.printed)
+        thermo = result.thermo
         np.testing.assert_allclose(thermo["f_flow[13]"][2:], 0.01, rtol=1e-5)
         self.assertGreater(abs(thermo["f_flow[7]"] / 0.01 - 1).min(), 3e-3)
         np.testing.assert_allclose(thermo["f_flow[19]"], -0.02 / (18 * 20 * 12), rtol=1e-10)
