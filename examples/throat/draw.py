@@ -3,7 +3,8 @@
 
     draw.py straight/ throat/ [-o throat.png]
 
-The folders are those in which in.throat ran, with -var throat 3 and without. Writes throat.csv as well: the lines of both blocks.dat.
+The folders are those in which in.throat ran, with -var throat 3 and without. Writes a CSV file of the same name as well: the
+lines of both blocks.dat.
 """
 import argparse
 import csv
@@ -39,6 +40,11 @@ def mean_over_time(time, values):
     return weights @ (values[1:] + values[:-1]) / (2 * weights.sum())
 
 
+def second_half(time):
+    """Rows from the last one before half of the time on."""
+    return time >= time[time <= time[-1] / 2][-1]
+
+
 def draw(folders, path):
     figure, axes = plt.subplots(2, 2, figsize=(10, 6.6), sharey="row")
     for column, (folder, title) in enumerate(zip(folders, TITLES)):
@@ -50,7 +56,7 @@ def draw(folders, path):
         top.legend(frameon=False, fontsize=8, ncol=3)
         steps, x, vertices = read_slices(folder / "slices.dat")
         time = np.interp(steps, table["TimeStep"], table["v_seconds"])
-        last = time > time[-1] / 2
+        last = second_half(time)
         bottom.step(x, vertices[0] / VERTICES, where="mid", color="0.6", label="at the start")
         bottom.step(x, mean_over_time(time[last], vertices[last]) / VERTICES, where="mid", color="k", label="mean over the second half")
         bottom.set(xlabel="x / µm (flow to the right)", ylabel="cells in a slice of D/2" if column == 0 else None)
@@ -77,7 +83,7 @@ def main():
             writer.writerows((vessel, f"{t:.5f}", *(f"{n:g}" for n in counts), f"{u:.4g}", f"{g:.4f}") for t, *counts, u, g in
                              zip(table["v_seconds"], *(table[name] for name in BLOCKS), table["v_u"], gone))
             time = table["v_seconds"]
-            last = time > time[-1] / 2
+            last = second_half(time)
             print(f"{vessel}: {time[-1]:.3f} s, cells went {gone[-1]:.2f} lengths; mean of the second half:",
                   *(f"BLOCK {name[-1]} {mean_over_time(time[last], table[name][last]):.2f}" for name in BLOCKS),
                   f"velocity {mean_over_time(time[last], table['v_u'][last]):.1f} um/s")
