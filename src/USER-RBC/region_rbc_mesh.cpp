@@ -110,14 +110,13 @@ void RegionRBCMesh::warn_if_beyond_box(const char *file) const
 {
   if (comm->me != 0) return;
   for (int d = 0; d < 3; ++d) {
-    if (solid->periodic()[d] ||
-        (solid->lo()[d] >= domain->boxlo[d] && solid->hi()[d] <= domain->boxhi[d]))
-      continue;
+    const double lo = solid->lo()[d], hi = solid->hi()[d];
+    if (solid->periodic()[d] || (lo >= domain->boxlo[d] && hi <= domain->boxhi[d])) continue;
+    const char along = static_cast<char>('x' + d);
     error->warning(FLERR,
                    "Region rbc/mesh file {} extends from {:.6g} to {:.6g} in {}, beyond the box "
                    "({:.6g} to {:.6g}), where it does not go on: is a shift missing?",
-                   file, solid->lo()[d], solid->hi()[d], "xyz"[d], domain -> boxlo[d],
-                   domain -> boxhi[d]);
+                   file, lo, hi, along, domain->boxlo[d], domain->boxhi[d]);
   }
 }
 
