@@ -87,6 +87,10 @@ def main():
             print(f"{vessel}: {time[-1]:.3f} s, cells went {gone[-1]:.2f} lengths; mean of the second half:",
                   *(f"BLOCK {name[-1]} {mean_over_time(time[last], table[name][last]):.2f}" for name in BLOCKS),
                   f"velocity {mean_over_time(time[last], table['v_u'][last]):.1f} um/s")
+            for length in range(int(gone[-1] + 0.01)):
+                rows = (gone >= length) & (gone < length + 1)
+                before, behind = (mean_over_time(time[rows], table[name][rows]) for name in (BLOCKS[0], BLOCKS[2]))
+                print(f"  length {length + 1}: BLOCK 0 over BLOCK 2 {before / behind:.3f}")
     draw(folders, arguments.output)
 
 
