@@ -197,11 +197,10 @@ void FixRBCFluid::find_walls()
   if (!holds_box_mean() || comm->me != 0) return;
   if (drive.held_direction() >= 0) {
     if (!settings.inside.empty())
-      error->warning(
-          FLERR,
-          "Fix rbc/fluid {} inside {}: there is no fix rbc/wall to keep the flow inside, "
-          "that of the whole box is held",
-          id, settings.inside);
+      error->warning(FLERR,
+                     "Fix rbc/fluid {} inside {}: there is no fix rbc/wall to keep the flow "
+                     "inside, that of the whole box is held",
+                     id, settings.inside);
     return;
   }
   for (const NumberOrVariable &component : drive.body)
