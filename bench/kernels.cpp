@@ -1,10 +1,10 @@
 // Time of the solver's parts by themselves, on any number of ranks. One rank also times the Fourier transforms
 // that a solve cannot do without, in turn with the solves, so that what else the machine does hits both.
 
-#include "coupling.h"
-#include "halo.h"
+#include "fluid/coupling.h"
+#include "fluid/halo.h"
+#include "fluid/stokes_solver.h"
 #include "molecule_file.h"
-#include "stokes_solver.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,6 +1,6 @@
 // Time of a force evaluation of one cell on one core: ns per vertex, for each law and form of bending.
 
-#include "membrane_model.h"
+#include "membrane/membrane_model.h"
 #include "molecule_file.h"
 
 #include <benchmark/benchmark.h>

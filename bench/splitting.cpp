@@ -1,7 +1,7 @@
 // Error of the projection scheme beside that of the coupled one: rolls and a Womersley flow between plates, at several
 // viscous Courant numbers nu dt / h^2, in the middle of the last step, where markers move with the velocity. Prints CSV.
 
-#include "flow.h"
+#include "fluid/flow.h"
 
 #include <cmath>
 #include <cstdio>

@@ -2,7 +2,7 @@
 // gradients alone (there without the force), with the preconditioner, and with the directions of earlier evaluations (the force moved on by a
 // twentieth of a cell a time). Writes a table.
 
-#include "direct_forcing.h"
+#include "fluid/direct_forcing.h"
 #include "rigid_tube.h"
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "advection.h"
+#include "fluid/advection.h"
 
 #include <cmath>
 

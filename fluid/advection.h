@@ -1,7 +1,7 @@
 #pragma once
 
-#include "field.h"
-#include "grid.h"
+#include "fluid/field.h"
+#include "fluid/grid.h"
 
 namespace fluid {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lanes.h"
+#include "fluid/lanes.h"
 
 #include <vector>
 

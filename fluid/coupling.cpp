@@ -1,6 +1,6 @@
-#include "coupling.h"
+#include "fluid/coupling.h"
 
-#include "kernel.h"
+#include "fluid/kernel.h"
 
 #include <Eigen/Core>
 

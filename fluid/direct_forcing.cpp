@@ -1,4 +1,4 @@
-#include "direct_forcing.h"
+#include "fluid/direct_forcing.h"
 
 #include <cmath>
 

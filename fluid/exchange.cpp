@@ -1,4 +1,4 @@
-#include "exchange.h"
+#include "fluid/exchange.h"
 
 #include <complex>
 

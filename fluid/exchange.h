@@ -1,6 +1,6 @@
 #pragma once
 
-#include "field.h"
+#include "fluid/field.h"
 
 #include <mpi.h>
 #include <vector>

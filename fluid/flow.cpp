@@ -1,4 +1,4 @@
-#include "flow.h"
+#include "fluid/flow.h"
 
 #include <cassert>
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "advection.h"
-#include "coupling.h"
-#include "plates.h"
-#include "regime.h"
-#include "stokes_solver.h"
+#include "fluid/advection.h"
+#include "fluid/coupling.h"
+#include "fluid/plates.h"
+#include "fluid/regime.h"
+#include "fluid/stokes_solver.h"
 
 namespace fluid {
 

@@ -1,5 +1,5 @@
-#include "flow.h"
-#include "history.h"
+#include "fluid/flow.h"
+#include "fluid/history.h"
 
 namespace fluid {
 

@@ -1,4 +1,4 @@
-#include "fourier.h"
+#include "fluid/fourier.h"
 
 namespace fluid {
 

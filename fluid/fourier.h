@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pencils.h"
-#include "redistribution.h"
-#include "transposition.h"
+#include "fluid/pencils.h"
+#include "fluid/redistribution.h"
+#include "fluid/transposition.h"
 
 namespace fluid {
 

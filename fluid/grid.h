@@ -1,6 +1,6 @@
 #pragma once
 
-#include "box.h"
+#include "fluid/box.h"
 
 #include <mpi.h>
 #include <vector>

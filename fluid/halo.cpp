@@ -1,4 +1,4 @@
-#include "halo.h"
+#include "fluid/halo.h"
 
 namespace fluid {
 

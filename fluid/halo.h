@@ -1,7 +1,7 @@
 #pragma once
 
-#include "exchange.h"
-#include "grid.h"
+#include "fluid/exchange.h"
+#include "fluid/grid.h"
 
 namespace fluid {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "grid.h"
-#include "redistribution.h"
+#include "fluid/grid.h"
+#include "fluid/redistribution.h"
 
 namespace fluid {
 

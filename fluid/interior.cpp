@@ -1,4 +1,4 @@
-#include "interior.h"
+#include "fluid/interior.h"
 
 namespace fluid {
 

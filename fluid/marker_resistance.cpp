@@ -1,4 +1,4 @@
-#include "marker_resistance.h"
+#include "fluid/marker_resistance.h"
 
 #include <Eigen/Cholesky>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "flow.h"
+#include "fluid/flow.h"
 
 namespace fluid {
 

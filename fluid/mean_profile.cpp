@@ -1,4 +1,4 @@
-#include "mean_profile.h"
+#include "fluid/mean_profile.h"
 
 namespace fluid {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mode_solver.h"
+#include "fluid/mode_solver.h"
 
 namespace fluid {
 

@@ -1,4 +1,4 @@
-#include "measures.h"
+#include "fluid/measures.h"
 
 #include <cmath>
 

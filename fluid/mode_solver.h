@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fourier.h"
+#include "fluid/fourier.h"
 
 #include <memory>
 

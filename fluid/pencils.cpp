@@ -1,4 +1,4 @@
-#include "pencils.h"
+#include "fluid/pencils.h"
 
 #include <limits>
 

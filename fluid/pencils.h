@@ -1,6 +1,6 @@
 #pragma once
 
-#include "grid.h"
+#include "fluid/grid.h"
 
 #include <vector>
 

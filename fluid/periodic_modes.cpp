@@ -1,6 +1,6 @@
-#include "lanes.h"
-#include "mode_solver.h"
-#include "wavenumbers.h"
+#include "fluid/lanes.h"
+#include "fluid/mode_solver.h"
+#include "fluid/wavenumbers.h"
 
 namespace fluid {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mean_profile.h"
-#include "wave_vectors.h"
+#include "fluid/mean_profile.h"
+#include "fluid/wave_vectors.h"
 
 namespace fluid {
 

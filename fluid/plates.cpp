@@ -1,4 +1,4 @@
-#include "plates.h"
+#include "fluid/plates.h"
 
 namespace fluid {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "grid.h"
-#include "halo.h"
-#include "mode_solver.h"
+#include "fluid/grid.h"
+#include "fluid/halo.h"
+#include "fluid/mode_solver.h"
 
 namespace fluid {
 

@@ -1,4 +1,4 @@
-#include "rigid_surface.h"
+#include "fluid/rigid_surface.h"
 
 #include <Eigen/LU>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "marker_resistance.h"
+#include "fluid/marker_resistance.h"
 
 #include <Eigen/Core>
 

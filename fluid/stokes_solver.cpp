@@ -1,4 +1,4 @@
-#include "stokes_solver.h"
+#include "fluid/stokes_solver.h"
 
 namespace fluid {
 

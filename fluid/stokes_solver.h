@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mode_solver.h"
-#include "regime.h"
+#include "fluid/mode_solver.h"
+#include "fluid/regime.h"
 
 namespace fluid {
 

@@ -1,4 +1,4 @@
-#include "transposition.h"
+#include "fluid/transposition.h"
 
 namespace fluid {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "exchange.h"
+#include "fluid/exchange.h"
 
 #include <complex>
 #include <utility>

@@ -1,5 +1,5 @@
-#include "banded.h"
-#include "plate_modes.h"
+#include "fluid/banded.h"
+#include "fluid/plate_modes.h"
 
 namespace fluid {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "box.h"
-#include "lanes.h"
-#include "wavenumbers.h"
+#include "fluid/box.h"
+#include "fluid/lanes.h"
+#include "fluid/wavenumbers.h"
 
 namespace fluid {
 

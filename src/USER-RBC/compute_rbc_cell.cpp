@@ -1,9 +1,9 @@
 #include "compute_rbc_cell.h"
 
 #include "atom.h"
-#include "cell_shape.h"
 #include "error.h"
 #include "fix_rbc_membrane.h"
+#include "membrane/cell_shape.h"
 #include "memory.h"
 #include "update.h"
 

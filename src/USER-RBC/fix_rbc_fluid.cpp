@@ -218,14 +218,15 @@ void FixRBCFluid::find_walls()
 void FixRBCFluid::spread_walls(const std::array<double, 3> &others, CollectiveStop &report)
 {
   if (!rigid) return;
+  current_flow->drive = forcing;
   std::array<double, 3> sum = others;
-  fluid::Vec3 &body = current_flow->drive.body;
+  const fluid::Vec3 &body = forcing.body;
   const double volume = inside->volume(*current_flow);
   if (comm->me == 0)
     for (int d = 0; d < 3; ++d) sum[d] += body[d] * volume;
   if (auto *const interior = inside->find(*current_flow)) {
     interior->add_force(*current_flow, body);
-    body = {0, 0, 0};
+    current_flow->drive.body = {0, 0, 0};
   }
   const double end = update->atime + (update->ntimestep - update->atimestep) * update->dt;
   rigid->spread(*current_flow, end - (1 - fraction) * update->dt, sum, report);
@@ -349,7 +350,12 @@ void FixRBCFluid::drive_at_setup()
 void FixRBCFluid::drive_now()
 {
   fraction = 1;
-  current_flow->drive = drive.evaluate();
+  set_forcing(drive.evaluate());
+}
+
+void FixRBCFluid::set_forcing(const fluid::Drive &by)
+{
+  forcing = current_flow->drive = by;
 }
 
 /* ----------------------------------------------------------------------
@@ -373,12 +379,12 @@ void FixRBCFluid::begin_step(bool again)
 void FixRBCFluid::drive_at(double at)
 {
   place_walls(at);
-  current_flow->drive = drive.at(at);
+  set_forcing(drive.at(at));
 }
 
 void FixRBCFluid::drive_end()
 {
-  current_flow->drive = drive.end();
+  set_forcing(drive.end());
 }
 
 /* ---------------------------------------------------------------------- */

@@ -7,14 +7,14 @@ FixStyle(rbc/fluid,FixRBCFluid);
 #ifndef LMP_FIX_RBC_FLUID_H
 #define LMP_FIX_RBC_FLUID_H
 
+#include "coupling/rbc_centred_data.h"
+#include "coupling/rbc_flow_drive.h"
+#include "coupling/rbc_flow_inside.h"
+#include "coupling/rbc_flow_restart.h"
+#include "coupling/rbc_fluid_settings.h"
 #include "fix.h"
-#include "measures.h"
-#include "rbc_centred_data.h"
-#include "rbc_collective_stop.h"
-#include "rbc_flow_drive.h"
-#include "rbc_flow_inside.h"
-#include "rbc_flow_restart.h"
-#include "rbc_fluid_settings.h"
+#include "fluid/measures.h"
+#include "support/rbc_collective_stop.h"
 
 #include <array>
 #include <memory>
@@ -97,7 +97,8 @@ class FixRBCFluid : public Fix {
   CollectiveStop stop;
 
   std::unique_ptr<RigidWalls> rigid;    // surfaces of atoms; null without them
-  double fraction = 1;                  // of the step, at which the drive is
+  double fraction = 1;                  // of the step, at which the forcing is
+  fluid::Drive forcing;                 // of the next solves
 
   void find_walls();
   int layers_needed() const;
@@ -109,6 +110,7 @@ class FixRBCFluid : public Fix {
   const fluid::FlowMeasures &measure();
   double inside_value(int);
   const fluid::Vec3 &mean_inside();
+  void set_forcing(const fluid::Drive &);
   bool holds_box_mean() const { return !settings.plates && settings.regime.hold_mean && !balanced; }
   void start_control();
   double driving_force(int) const;

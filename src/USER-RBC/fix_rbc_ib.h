@@ -7,8 +7,8 @@ FixStyle(rbc/ib,FixRBCIB);
 #ifndef LMP_FIX_RBC_IB_H
 #define LMP_FIX_RBC_IB_H
 
-#include "direct_forcing.h"
 #include "fix.h"
+#include "fluid/direct_forcing.h"
 #include "rbc_steady_steps.h"
 
 #include <memory>

@@ -1,16 +1,16 @@
 #include "fix_rbc_membrane.h"
 
 #include "atom.h"
+#include "cells/rbc_cell_template.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "force.h"
 #include "math_const.h"
-#include "membrane_viscosity.h"
+#include "membrane/membrane_viscosity.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "pair.h"
-#include "rbc_cell_template.h"
 #include "update.h"
 
 #include <algorithm>

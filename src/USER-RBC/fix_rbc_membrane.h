@@ -7,11 +7,11 @@ FixStyle(rbc/membrane,FixRBCMembrane);
 #ifndef LMP_FIX_RBC_MEMBRANE_H
 #define LMP_FIX_RBC_MEMBRANE_H
 
+#include "cells/rbc_local_cells.h"
+#include "cells/rbc_swelling.h"
 #include "fix.h"
-#include "rbc_local_cells.h"
-#include "rbc_swelling.h"
-#include "stopwatch.h"
-#include "surface_viscosity.h"
+#include "membrane/surface_viscosity.h"
+#include "support/stopwatch.h"
 
 #include <memory>
 

@@ -8,10 +8,10 @@
 #include "fix_rbc_membrane.h"
 #include "group.h"
 #include "irregular.h"
-#include "membrane_tension.h"
+#include "membrane/membrane_tension.h"
 #include "modify.h"
+#include "output/vtp_writer.h"
 #include "update.h"
-#include "vtp_writer.h"
 
 #include <algorithm>
 #include <cmath>

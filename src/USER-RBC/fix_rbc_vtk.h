@@ -7,8 +7,8 @@ FixStyle(rbc/vtk,FixRBCVTK);
 #ifndef LMP_FIX_RBC_VTK_H
 #define LMP_FIX_RBC_VTK_H
 
+#include "cells/rbc_local_cells.h"
 #include "fix.h"
-#include "rbc_local_cells.h"
 
 #include <string>
 #include <vector>

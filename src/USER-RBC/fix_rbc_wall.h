@@ -7,9 +7,9 @@ FixStyle(rbc/wall,FixRBCWall);
 #ifndef LMP_FIX_RBC_WALL_H
 #define LMP_FIX_RBC_WALL_H
 
-#include "coupling.h"
 #include "fix.h"
-#include "rbc_number_or_variable.h"
+#include "fluid/coupling.h"
+#include "support/rbc_number_or_variable.h"
 
 #include <array>
 #include <string>

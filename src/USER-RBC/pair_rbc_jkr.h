@@ -7,10 +7,10 @@ PairStyle(rbc/jkr,PairRBCJKR);
 #ifndef LMP_PAIR_RBC_JKR_H
 #define LMP_PAIR_RBC_JKR_H
 
-#include "jkr_contact.h"
-#include "near_triangles.h"
+#include "contact/jkr_contact.h"
+#include "contact/near_triangles.h"
 #include "pair.h"
-#include "stopwatch.h"
+#include "support/stopwatch.h"
 
 #include <memory>
 #include <vector>

@@ -1,16 +1,16 @@
 #include "rbc_create.h"
 
 #include "atom.h"
-#include "cell_packing.h"
+#include "cells/rbc_cell_template.h"
+#include "cells/rbc_region_enclosure.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "math_const.h"
+#include "packing/cell_packing.h"
 #include "random_park.h"
-#include "rbc_cell_template.h"
-#include "rbc_new_atoms.h"
-#include "rbc_region_enclosure.h"
 #include "region.h"
+#include "support/rbc_new_atoms.h"
 
 #include <Eigen/Geometry>
 

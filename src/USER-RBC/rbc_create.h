@@ -8,7 +8,7 @@ CommandStyle(rbc/create,RBCCreate);
 #define LMP_RBC_CREATE_H
 
 #include "command.h"
-#include "surface_template.h"
+#include "geometry/surface_template.h"
 
 #include <memory>
 #include <string>

@@ -1,11 +1,11 @@
 #ifndef LMP_RBC_MARKER_MOTION_H
 #define LMP_RBC_MARKER_MOTION_H
 
-#include "flow.h"
-#include "gmres.h"
+#include "fluid/flow.h"
+#include "motion/gmres.h"
 #include "pointers.h"
-#include "rbc_collective_stop.h"
-#include "stopwatch.h"
+#include "support/rbc_collective_stop.h"
+#include "support/stopwatch.h"
 
 #include <array>
 #include <memory>

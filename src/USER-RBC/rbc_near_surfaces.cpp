@@ -1,11 +1,11 @@
 #include "rbc_near_surfaces.h"
 
 #include "atom.h"
+#include "contact/surface_patches.h"
 #include "domain.h"
 #include "fix_rbc_membrane.h"
 #include "modify.h"
 #include "neighbor.h"
-#include "surface_patches.h"
 #include "update.h"
 
 #include <algorithm>

@@ -1,12 +1,12 @@
 #ifndef LMP_RBC_NEAR_SURFACES_H
 #define LMP_RBC_NEAR_SURFACES_H
 
-#include "held_positions.h"
+#include "contact/held_positions.h"
+#include "contact/near_triangles.h"
+#include "geometry/surface_template.h"
 #include "lmptype.h"
-#include "near_triangles.h"
 #include "pointers.h"
-#include "rbc_collective_stop.h"
-#include "surface_template.h"
+#include "support/rbc_collective_stop.h"
 
 #include <memory>
 #include <string>

@@ -1,10 +1,10 @@
 #ifndef LMP_RBC_RIGID_WALLS_H
 #define LMP_RBC_RIGID_WALLS_H
 
+#include "fluid/rigid_surface.h"
 #include "pointers.h"
-#include "rbc_collective_stop.h"
-#include "rigid_surface.h"
-#include "stopwatch.h"
+#include "support/rbc_collective_stop.h"
+#include "support/stopwatch.h"
 
 #include <vector>
 

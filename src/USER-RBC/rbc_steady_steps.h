@@ -1,10 +1,10 @@
 #ifndef LMP_RBC_STEADY_STEPS_H
 #define LMP_RBC_STEADY_STEPS_H
 
-#include "chebyshev.h"
+#include "motion/chebyshev.h"
+#include "motion/spectral_radius.h"
+#include "motion/step_control.h"
 #include "rbc_marker_motion.h"
-#include "spectral_radius.h"
-#include "step_control.h"
 
 #include <array>
 #include <string>

@@ -1,13 +1,13 @@
 #include "rbc_surface.h"
 
 #include "atom.h"
+#include "cells/rbc_region_enclosure.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "rbc_new_atoms.h"
-#include "rbc_region_enclosure.h"
 #include "region.h"
-#include "surface_sampling.h"
+#include "support/rbc_new_atoms.h"
+#include "vessel/surface_sampling.h"
 
 #include <algorithm>
 

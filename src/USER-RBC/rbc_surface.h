@@ -8,7 +8,7 @@ CommandStyle(rbc/surface,RBCSurface);
 #define LMP_RBC_SURFACE_H
 
 #include "command.h"
-#include "surface_template.h"
+#include "geometry/surface_template.h"
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "stl_file.h"
+#include "vessel/stl_file.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -8,7 +8,7 @@ RegionStyle(rbc/mesh,RegionRBCMesh);
 #define LMP_REGION_RBC_MESH_H
 
 #include "region.h"
-#include "triangulated_solid.h"
+#include "vessel/triangulated_solid.h"
 
 #include <memory>
 #include <string>

@@ -1,5 +1,5 @@
-#include "aggregate_sizes.h"
-#include "touching_cells.h"
+#include "contact/aggregate_sizes.h"
+#include "contact/touching_cells.h"
 
 #include <gtest/gtest.h>
 

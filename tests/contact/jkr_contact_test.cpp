@@ -1,6 +1,6 @@
-#include "jkr_contact.h"
+#include "contact/jkr_contact.h"
 
-#include "test_support.h"
+#include "../geometry/test_support.h"
 
 using rbc::TipContact;
 using test::pi;
@@ -9,7 +9,7 @@ namespace {
 
 test::Table reference(const std::string &name)
 {
-  return test::Table("../../contact/data/" + name);
+  return test::Table("contact/data/" + name);
 }
 
 /// Half of the last of the eight digits that the tables have.

@@ -1,7 +1,7 @@
-#include "held_positions.h"
-#include "near_triangles.h"
+#include "contact/held_positions.h"
+#include "contact/near_triangles.h"
 
-#include "test_support.h"
+#include "../geometry/test_support.h"
 
 #include <optional>
 

@@ -1,6 +1,6 @@
-#include "surface_patches.h"
+#include "contact/surface_patches.h"
 
-#include "test_support.h"
+#include "../geometry/test_support.h"
 
 #include <algorithm>
 #include <cmath>

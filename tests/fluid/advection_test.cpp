@@ -1,8 +1,8 @@
 // The discrete div(u u): closed forms, and what it conserves.
 
-#include "advection.h"
+#include "fluid/advection.h"
+#include "fluid/plates.h"
 #include "manufactured.h"
-#include "plates.h"
 
 using namespace test;
 

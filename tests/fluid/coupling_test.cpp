@@ -1,7 +1,7 @@
 // Spreading and interpolation through the whole chain of spread, fold at the plates and add ghosts
 // back, and fill ghosts, reflect at the plates and interpolate.
 
-#include "plates.h"
+#include "fluid/plates.h"
 #include "test_support.h"
 
 using namespace test;

@@ -1,7 +1,7 @@
 // Flows left to themselves: the Taylor-Green vortex, and the energy of a flow with hardly any viscosity.
 
 #include "flow_support.h"
-#include "measures.h"
+#include "fluid/measures.h"
 
 using namespace test;
 

@@ -1,6 +1,6 @@
 // Whole steps around point forces: balance of forces, mobilities, layouts of ranks, measures.
 
-#include "measures.h"
+#include "fluid/measures.h"
 #include "test_support.h"
 
 using namespace test;

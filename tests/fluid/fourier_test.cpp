@@ -1,6 +1,6 @@
 // Distributed real transform in x and y: against sums written out, round trip, and messages sent.
 
-#include "fourier.h"
+#include "fluid/fourier.h"
 #include "test_support.h"
 
 using namespace test;

@@ -1,6 +1,6 @@
 // Ghost layers: what fill puts into them, that add_back is its transpose, and messages sent.
 
-#include "halo.h"
+#include "fluid/halo.h"
 #include "test_support.h"
 
 using namespace test;

@@ -1,7 +1,7 @@
 // A flow goes on from its saved history, and on other bricks.
 
 #include "flow_support.h"
-#include "measures.h"
+#include "fluid/measures.h"
 
 using namespace test;
 

@@ -1,9 +1,9 @@
 // Means over a part of the box.
 
-#include "interior.h"
+#include "fluid/interior.h"
 
 #include "flow_support.h"
-#include "measures.h"
+#include "fluid/measures.h"
 
 using namespace test;
 

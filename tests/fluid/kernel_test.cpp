@@ -1,6 +1,6 @@
 // Regularised delta functions: their published formulas and moments.
 
-#include "kernel.h"
+#include "fluid/kernel.h"
 #include "test_support.h"
 
 using namespace test;

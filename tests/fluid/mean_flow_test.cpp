@@ -1,7 +1,7 @@
 // The mean velocity of a triply periodic box: held, or free to follow the forces.
 
 #include "flow_support.h"
-#include "measures.h"
+#include "fluid/measures.h"
 
 using namespace test;
 

@@ -1,7 +1,7 @@
 // Plane flows between plates that start or oscillate, against their exact solutions.
 
 #include "flow_support.h"
-#include "measures.h"
+#include "fluid/measures.h"
 
 #include <complex>
 #include <functional>

@@ -1,7 +1,7 @@
 // What further forces on the markers would add to the flow.
 
 #include "flow_support.h"
-#include "measures.h"
+#include "fluid/measures.h"
 
 using namespace test;
 

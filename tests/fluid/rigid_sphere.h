@@ -1,6 +1,6 @@
 #pragma once
 
-#include "direct_forcing.h"
+#include "fluid/direct_forcing.h"
 #include "test_support.h"
 
 namespace test {

@@ -1,5 +1,5 @@
-#include "kernel.h"
-#include "measures.h"
+#include "fluid/kernel.h"
+#include "fluid/measures.h"
 #include "rigid_sphere.h"
 #include "rigid_tube.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "rigid_surface.h"
+#include "fluid/rigid_surface.h"
 #include "test_support.h"
 
 namespace test {

@@ -1,7 +1,7 @@
 // Sheets of markers: they move with the fluid beside them.
 
-#include "flow.h"
-#include "kernel.h"
+#include "fluid/flow.h"
+#include "fluid/kernel.h"
 #include "rigid_sphere.h"
 #include "test_support.h"
 

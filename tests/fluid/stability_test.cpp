@@ -1,7 +1,7 @@
 // Steps of any length do not blow up without convection; with it the Courant number has a limit.
 
 #include "flow_support.h"
-#include "measures.h"
+#include "fluid/measures.h"
 
 #include <complex>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "halo.h"
-#include "stokes_solver.h"
+#include "fluid/halo.h"
+#include "fluid/stokes_solver.h"
 #include "test_support.h"
 
 namespace test {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling.h"
+#include "fluid/coupling.h"
 
 #include <gtest/gtest.h>
 

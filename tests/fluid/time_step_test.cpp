@@ -1,7 +1,7 @@
 // Steps in time follow a manufactured flow with second order in space and time.
 
+#include "fluid/measures.h"
 #include "manufactured.h"
-#include "measures.h"
 
 using namespace test;
 

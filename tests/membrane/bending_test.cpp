@@ -202,7 +202,7 @@ const Profile tabulated{0.2072, 2.0026, -1.1228};
 
 TEST(Bending, SmoothDiscAgreesWithTheTable)
 {
-  const Table table("09c_biconcave_exact_curvature_force.csv");
+  const Table table("membrane/data/09c_biconcave_exact_curvature_force.csv");
   const SmoothDisc smooth{tabulated};
   for (int row = 0; row < table.rows(); ++row) {
     const double angle = std::acos(

@@ -1,6 +1,6 @@
 // Volume moments and the ellipsoid of inertia.
 
-#include "cell_shape.h"
+#include "membrane/cell_shape.h"
 #include "test_support.h"
 
 using namespace test;

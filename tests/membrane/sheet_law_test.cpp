@@ -87,7 +87,7 @@ void expect_as_printed(double value, double printed)
 
 TEST(SheetLaw, MooneyRivlinTensions)
 {
-  const Table table("08a_mooney_rivlin_membrane_closed_forms.csv");
+  const Table table("membrane/data/08a_mooney_rivlin_membrane_closed_forms.csv");
   for (int row = 0; row < table.rows(); ++row) {
     const double psi = table.number(row, "psi"), l = table.number(row, "lambda");
     SCOPED_TRACE("psi " + std::to_string(psi) + ", lambda " + std::to_string(l));
@@ -118,7 +118,7 @@ TEST(SheetLaw, NeoHookeanBalloonIsWeakestBeyondItsLimitPoint)
 
 TEST(SheetLaw, SkalakTensions)
 {
-  const Table table("08b_skalak_closed_forms.csv");
+  const Table table("membrane/data/08b_skalak_closed_forms.csv");
   for (int row = 0; row < table.rows(); ++row) {
     const double l = table.number(row, "lambda");
     const Skalak law(1, table.number(row, "C"));
@@ -131,7 +131,7 @@ TEST(SheetLaw, SkalakTensions)
 TEST(SheetLaw, UniaxialTensionsOfBarthesBieselDiazAndDhenin)
 {
   // Points read off a figure: within 3 % of the range of the curve.
-  const Table table("08d_uniaxial_membrane_BB2002.csv");
+  const Table table("membrane/data/08d_uniaxial_membrane_BB2002.csv");
   for (int row = 0; row < table.rows(); ++row) {
     const double l = std::sqrt(1 + 2 * table.number(row, "green_strain"));
     const double expected = table.number(row, "T1_over_modulus");

@@ -157,7 +157,7 @@ template <typename Value> void expect_second_order(const Value &value, double ex
 
 TEST(SheetStretch, MooneyRivlinAndNeoHookeanSpheres)
 {
-  const Table table("08a_mooney_rivlin_membrane_closed_forms.csv");
+  const Table table("membrane/data/08a_mooney_rivlin_membrane_closed_forms.csv");
   for (int row = 0; row < table.rows(); ++row) {
     const double psi = table.number(row, "psi"), l = table.number(row, "lambda");
     SCOPED_TRACE("psi " + std::to_string(psi) + ", lambda " + std::to_string(l));
@@ -176,7 +176,7 @@ TEST(SheetStretch, MooneyRivlinAndNeoHookeanSpheres)
 
 TEST(SheetStretch, SkalakBalloons)
 {
-  const Table table("08b_skalak_closed_forms.csv");
+  const Table table("membrane/data/08b_skalak_closed_forms.csv");
   for (int row = 0; row < table.rows(); ++row) {
     const double l = table.number(row, "lambda");
     const rbc::Skalak law(1, table.number(row, "C"));
@@ -208,7 +208,7 @@ TEST(SheetStretch, FlatSheetsAreExact)
   const auto expect = [](double tension, double exact) {
     EXPECT_NEAR(tension, exact, 1e-5 * std::abs(exact));
   };
-  const Table table("08a_mooney_rivlin_membrane_closed_forms.csv");
+  const Table table("membrane/data/08a_mooney_rivlin_membrane_closed_forms.csv");
   for (int row = 0; row < table.rows(); ++row) {
     const double psi = table.number(row, "psi"), l = table.number(row, "lambda");
     SCOPED_TRACE("psi " + std::to_string(psi) + ", lambda " + std::to_string(l));
@@ -220,7 +220,7 @@ TEST(SheetStretch, FlatSheetsAreExact)
     expect(flat_tension(law, l, 1 / l), table.number(row, "T1_pureshear"));
     expect(flat_tension(law, 1 / l, l), table.number(row, "T2_pureshear"));
   }
-  const Table skalak("08b_skalak_closed_forms.csv");
+  const Table skalak("membrane/data/08b_skalak_closed_forms.csv");
   for (int row = 0; row < skalak.rows(); ++row) {
     const double C = skalak.number(row, "C"), l = skalak.number(row, "lambda");
     SCOPED_TRACE("C " + std::to_string(C) + ", lambda " + std::to_string(l));

@@ -1,6 +1,6 @@
 // A stress-free shape apart from the shape of the cell, and a rest volume apart from its volume.
 
-#include "membrane_tension.h"
+#include "membrane/membrane_tension.h"
 #include "test_support.h"
 
 #include <Eigen/LU>

@@ -1,4 +1,4 @@
-#include "membrane_viscosity.h"
+#include "membrane/membrane_viscosity.h"
 
 #include "test_support.h"
 

@@ -1,4 +1,4 @@
-#include "chebyshev.h"
+#include "motion/chebyshev.h"
 
 #include "test_motion.h"
 

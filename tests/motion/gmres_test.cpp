@@ -1,4 +1,4 @@
-#include "gmres.h"
+#include "motion/gmres.h"
 
 #include "test_motion.h"
 

@@ -1,4 +1,4 @@
-#include "path.h"
+#include "motion/path.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "response_control.h"
+#include "motion/response_control.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "spectral_radius.h"
+#include "motion/spectral_radius.h"
 
-#include "chebyshev.h"
+#include "motion/chebyshev.h"
 #include "test_motion.h"
 
 #include <gtest/gtest.h>

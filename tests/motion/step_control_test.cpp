@@ -1,4 +1,4 @@
-#include "step_control.h"
+#include "motion/step_control.h"
 
 #include "test_motion.h"
 

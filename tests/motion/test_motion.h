@@ -1,6 +1,6 @@
 #pragma once
 
-#include "motion.h"
+#include "motion/motion.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "stl_file.h"
+#include "vessel/stl_file.h"
 
 #include "test_support.h"
 

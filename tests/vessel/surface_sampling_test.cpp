@@ -1,4 +1,4 @@
-#include "surface_sampling.h"
+#include "vessel/surface_sampling.h"
 
 #include "test_support.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "../contact/test_support.h"
-#include "triangulated_solid.h"
+#include "../geometry/test_support.h"
+#include "vessel/triangulated_solid.h"
 
 namespace test {
 

@@ -1,4 +1,4 @@
-#include "triangulated_solid.h"
+#include "vessel/triangulated_solid.h"
 
 #include "test_support.h"
 

@@ -1,0 +1,313 @@
+#include "cells/rbc_local_cells.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using rbc::Vec3;
+
+LocalCells::LocalCells(LAMMPS *lmp, const rbc::SurfaceTemplate &shape, int groupbit,
+                       std::string style) :
+    Pointers(lmp),
+    shape(shape), groupbit(groupbit), style(std::move(style)),
+    whole(rbc::CellElements::whole(shape))
+{
+}
+
+void LocalCells::find()
+{
+  if (!atom->molecule_flag || !atom->tag_enable)
+    error->all(FLERR, "{} requires atoms with IDs and molecule IDs", style);
+  if (atom->map_style == Atom::MAP_NONE)
+    error->all(FLERR, "{} requires an atom map, see atom_modify", style);
+
+  tagint largest = 0;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit) largest = std::max(largest, atom->molecule[i]);
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_LMP_TAGINT, MPI_MAX, world);
+  if (largest > atom->natoms)
+    error->all(FLERR,
+               "{}: molecule ID {} is larger than the number of atoms; renumber with set mol",
+               style, largest);
+
+  // lowest and (negated) highest atom ID of each molecule in one reduction
+  std::vector<tagint> extremes(2 * (largest + 1), MAXTAGINT);
+  std::vector<int> count(largest + 1);
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const tagint m = atom->molecule[i];
+    extremes[2 * m] = std::min(extremes[2 * m], atom->tag[i]);
+    extremes[2 * m + 1] = std::min(extremes[2 * m + 1], -atom->tag[i]);
+    ++count[m];
+  }
+  MPI_Allreduce(MPI_IN_PLACE, extremes.data(), static_cast<int>(extremes.size()), MPI_LMP_TAGINT,
+                MPI_MIN, world);
+  MPI_Allreduce(MPI_IN_PLACE, count.data(), static_cast<int>(count.size()), MPI_INT, MPI_SUM,
+                world);
+
+  molecule_ids.clear();
+  first_ids.clear();
+  index_of.clear();
+  if (count[0] > 0)
+    error->all(FLERR, "{}: {} atoms of the group belong to no molecule", style, count[0]);
+  for (tagint m = 1; m <= largest; ++m) {
+    if (count[m] == 0) continue;
+    const tagint first = extremes[2 * m], last = -extremes[2 * m + 1];
+    if (count[m] != shape.size())
+      error->all(FLERR,
+                 "{}: the cell with molecule ID {} has {} atoms in the group, its template {}",
+                 style, m, count[m], shape.size());
+    if (last - first + 1 != shape.size())
+      error->all(FLERR,
+                 "{}: the atom IDs of the cell with molecule ID {} are not consecutive ({} to {})",
+                 style, m, first, last);
+    index_of[m] = static_cast<int>(molecule_ids.size());
+    molecule_ids.push_back(m);
+    first_ids.push_back(first);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   from the wrapped to the unwrapped position of an owned atom
+------------------------------------------------------------------------- */
+
+Vec3 LocalCells::image_shift(int i) const
+{
+  double zero[3] = {0, 0, 0}, shift[3];
+  domain->unmap(zero, atom->image[i], shift);
+  return {shift[0], shift[1], shift[2]};
+}
+
+void LocalCells::bind(bool bending)
+{
+  const int size = shape.size();
+  std::vector<int> slot(molecule_ids.size(), -1);
+  std::vector<int> owned_count;
+  CollectiveStop stop(lmp);
+  local.clear();
+  atoms.clear();
+
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const auto found = index_of.find(atom->molecule[i]);
+    if (found == index_of.end()) {
+      stop.report(fmt::format(
+          "{}: atom {} belongs to molecule {}, which was not there at the start of the run", style,
+          atom->tag[i], atom->molecule[i]));
+      continue;
+    }
+    const int index = found->second;
+    if (slot[index] < 0) {
+      slot[index] = static_cast<int>(local.size());
+      local.push_back({index, nullptr, nullptr, nullptr, Vec3::Zero(), -1});
+      owned_count.push_back(0);
+      atoms.resize(atoms.size() + size, -1);
+    }
+    ++owned_count[slot[index]];
+    atoms[std::size_t(slot[index]) * size + (atom->tag[i] - first_ids[index])] = i;
+  }
+
+  stop.check();
+  check_complete(owned_count);
+  unwrap();
+
+  offsets.assign(atoms.size(), Vec3::Zero());
+  parts.clear();
+  parts.reserve(local.size());
+  std::vector<char> is_part(local.size());
+  for (std::size_t c = 0; c < local.size(); ++c) {
+    const std::size_t at = c * size;
+    std::vector<char> owned(size);
+    for (int v = 0; v < size; ++v) {
+      owned[v] = atoms[at + v] >= 0;
+      if (owned[v]) offsets[at + v] = image_shift(atoms[at + v]);
+    }
+    local[c].atom = &atoms[at];
+    local[c].offset = &offsets[at];
+    local[c].elements = &whole;
+    if (owned_count[c] == size) continue;
+
+    is_part[c] = 1;
+    find_neighbours(at, first_ids[local[c].index], owned, bending ? 2 : 1);
+    parts.push_back(rbc::CellElements::part(shape, std::move(owned), bending));
+    local[c].elements = &parts.back();
+    check_neighbours(c, bending ? 3 : 2, stop);
+  }
+  stop.check();
+  find_shared(is_part);
+  set_origins();
+}
+
+/* ----------------------------------------------------------------------
+   LAMMPS deletes atoms that leave a box that is not periodic
+------------------------------------------------------------------------- */
+
+void LocalCells::check_complete(const std::vector<int> &owned_count) const
+{
+  bigint owned = 0, all;
+  for (int count : owned_count) owned += count;
+  MPI_Allreduce(&owned, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (all == static_cast<bigint>(molecule_ids.size()) * shape.size()) return;
+
+  std::vector<double> sums(4 * molecule_ids.size());    // vertices left and their positions
+  for (std::size_t c = 0; c < local.size(); ++c)
+    for (int v = 0; v < shape.size(); ++v) {
+      const int i = atoms[c * shape.size() + v];
+      if (i < 0) continue;
+      double *const s = &sums[4 * std::size_t(local[c].index)];
+      double unwrapped[3];
+      domain->unmap(atom->x[i], atom->image[i], unwrapped);
+      s[0] += 1;
+      for (int d = 0; d < 3; ++d) s[1 + d] += unwrapped[d];
+    }
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
+                world);
+  for (std::size_t n = 0; n < molecule_ids.size(); ++n) {
+    const double *const s = &sums[4 * n];
+    if (s[0] == shape.size()) continue;
+    error->all(FLERR,
+               "{}: lost {:.0f} of {} vertices, which left the simulation box, at step {}: cell "
+               "with molecule ID {} "
+               "near ({:.6g}, {:.6g}, {:.6g})",
+               style, shape.size() - s[0], shape.size(), update->ntimestep, molecule_ids[n],
+               s[1] / s[0], s[2] / s[0], s[3] / s[0]);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   positions of all atoms here, of ghosts too: which image of a vertex is the cell's own does not depend on how far it is
+------------------------------------------------------------------------- */
+
+void LocalCells::unwrap()
+{
+  if (comm->nprocs == 1) return;
+  const int all = atom->nlocal + atom->nghost;
+  unwrapped.resize(3 * std::size_t(all));
+  unwrapped_rows.resize(all);
+  for (int i = 0; i < all; ++i) {
+    unwrapped_rows[i] = &unwrapped[3 * std::size_t(i)];
+    if (i < atom->nlocal) domain->unmap(atom->x[i], atom->image[i], unwrapped_rows[i]);
+  }
+  comm->forward_comm_array(3, unwrapped_rows.data());
+}
+
+/* ----------------------------------------------------------------------
+   vertices of other ranks within some rings of the owned ones
+------------------------------------------------------------------------- */
+
+void LocalCells::find_neighbours(std::size_t at, tagint first, const std::vector<char> &owned,
+                                 int rings)
+{
+  std::vector<int> front;
+  for (int v = 0; v < shape.size(); ++v)
+    if (owned[v]) front.push_back(v);
+  for (int ring = 0; ring < rings; ++ring) {
+    std::vector<int> next;
+    for (int v : front)
+      for (int w : shape.neighbours[v]) {
+        if (atoms[at + w] >= 0) continue;
+        const int j = atom->map(first + w);
+        if (j < 0) continue;
+        for (int d = 0; d < 3; ++d)
+          offsets[at + w][d] =
+              std::round((unwrapped_rows[j][d] - atom->x[j][d]) / domain->prd[d]) * domain->prd[d];
+        atoms[at + w] = j;
+        next.push_back(w);
+      }
+    front = std::move(next);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   LAMMPS may not have sent all of them here
+------------------------------------------------------------------------- */
+
+void LocalCells::check_neighbours(std::size_t c, int rings, CollectiveStop &stop) const
+{
+  const int *const known = local[c].atom;
+  int owned = -1;
+  for (int v = 0; v < shape.size() && owned < 0; ++v)
+    if (local[c].elements->owned[v]) owned = known[v];
+  const double *const near = atom->x[owned];
+  for (int t : local[c].elements->triangles)
+    for (int v : shape.triangles[t])
+      if (known[v] < 0)
+        return stop.report(fmt::format(
+            "{}: ghost cutoff {} is too short at step {} for the cell with molecule ID {} near "
+            "({:.6g}, {:.6g}, {:.6g}): a neighbour of its vertices is unknown; its edges are "
+            "stretched too far, or use comm_modify cutoff (at rest at least {})",
+            style, comm->get_comm_cutoff(), update->ntimestep, molecule_ids[local[c].index],
+            near[0], near[1], near[2], rings * shape.longest_edge));
+}
+
+void LocalCells::find_shared(const std::vector<char> &is_part)
+{
+  shared.clear();
+  if (comm->nprocs == 1) return;
+  std::vector<int> mine;
+  for (std::size_t c = 0; c < local.size(); ++c)
+    if (is_part[c]) mine.push_back(local[c].index);
+
+  const int count = static_cast<int>(mine.size());
+  std::vector<int> counts(comm->nprocs), begins(comm->nprocs);
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+  for (int r = 1; r < comm->nprocs; ++r) begins[r] = begins[r - 1] + counts[r - 1];
+  shared.resize(begins.back() + counts.back());
+  MPI_Allgatherv(mine.data(), count, MPI_INT, shared.data(), counts.data(), begins.data(), MPI_INT,
+                 world);
+  std::sort(shared.begin(), shared.end());
+  shared.erase(std::unique(shared.begin(), shared.end()), shared.end());
+  for (std::size_t c = 0; c < local.size(); ++c)
+    if (is_part[c])
+      local[c].shared = static_cast<int>(
+          std::lower_bound(shared.begin(), shared.end(), local[c].index) - shared.begin());
+}
+
+/* ----------------------------------------------------------------------
+   the mean of the vertices, which all ranks that share a cell agree on
+------------------------------------------------------------------------- */
+
+void LocalCells::set_origins()
+{
+  const int size = shape.size();
+  std::vector<double> sums(3 * local.size());
+  for (std::size_t c = 0; c < local.size(); ++c)
+    for (int v = 0; v < size; ++v) {
+      if (!local[c].elements->owned[v]) continue;
+      const int i = atoms[c * size + v];
+      for (int d = 0; d < 3; ++d) sums[3 * c + d] += atom->x[i][d] + offsets[c * size + v][d];
+    }
+  sum_shared(sums, 3);
+  for (std::size_t c = 0; c < local.size(); ++c) {
+    local[c].origin = Vec3(&sums[3 * c]) / size;
+    for (int v = 0; v < size; ++v) offsets[c * size + v] -= local[c].origin;
+  }
+}
+
+void LocalCells::gather(const Cell &cell, std::vector<Vec3> &x) const
+{
+  const double *const *const position = atom->x;
+  const int size = shape.size();
+  for (int v = 0; v < size; ++v)
+    if (cell.atom[v] >= 0) x[v] = Vec3(position[cell.atom[v]]) + cell.offset[v];
+}
+
+void LocalCells::sum_shared(std::vector<double> &values, int width)
+{
+  if (shared.empty()) return;
+  buffer.assign(shared.size() * width, 0.0);
+  for (std::size_t c = 0; c < local.size(); ++c)
+    if (local[c].shared >= 0)
+      std::copy_n(&values[c * width], width, &buffer[std::size_t(local[c].shared) * width]);
+  MPI_Allreduce(MPI_IN_PLACE, buffer.data(), static_cast<int>(buffer.size()), MPI_DOUBLE, MPI_SUM,
+                world);
+  for (std::size_t c = 0; c < local.size(); ++c)
+    if (local[c].shared >= 0)
+      std::copy_n(&buffer[std::size_t(local[c].shared) * width], width, &values[c * width]);
+}

@@ -1,0 +1,77 @@
+#ifndef LMP_RBC_LOCAL_CELLS_H
+#define LMP_RBC_LOCAL_CELLS_H
+
+#include "lmptype.h"
+#include "membrane/membrane_model.h"
+#include "pointers.h"
+#include "support/rbc_collective_stop.h"
+
+#include <unordered_map>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// The cells made from one template in a group, and what this rank holds of them. A vertex is known by its atom ID:
+/// those of a cell are consecutive, in the order of the template. Cells are numbered in order of molecule ID.
+class LocalCells : protected Pointers {
+ public:
+  /// One cell of which this rank owns a vertex.
+  struct Cell {
+    int index;    ///< among all cells
+    const rbc::CellElements *elements;
+    const int *atom;            ///< local index of each vertex, -1 where unknown
+    const rbc::Vec3 *offset;    ///< of each vertex, from LAMMPS's position to one near the origin
+    rbc::Vec3 origin;           ///< unwrapped position from which the cell's coordinates count
+    int shared;    ///< number among the cells that several ranks share, -1 if this rank has it all
+  };
+
+  LocalCells(LAMMPS *lmp, const rbc::SurfaceTemplate &shape, int groupbit, std::string style);
+
+  /// Collective: finds the group's cells and checks that each is whole.
+  void find();
+
+  /// Collective, after atoms migrated: finds which vertices this rank holds. With `bending` the forces on a vertex
+  /// reach its neighbours' neighbours.
+  void bind(bool bending);
+
+  const std::vector<tagint> &molecules() const { return molecule_ids; }
+  /// Lowest atom ID of each cell.
+  const std::vector<tagint> &first_atoms() const { return first_ids; }
+  const std::vector<Cell> &cells() const { return local; }
+
+  /// Positions of the cell's vertices from its origin.
+  void gather(const Cell &cell, std::vector<rbc::Vec3> &x) const;
+
+  /// Sums `values` (`width` numbers for each of cells()) over ranks, for the cells that are shared.
+  void sum_shared(std::vector<double> &values, int width);
+
+ private:
+  const rbc::SurfaceTemplate &shape;
+  int groupbit;
+  std::string style;
+
+  std::vector<tagint> molecule_ids, first_ids;
+  std::unordered_map<tagint, int> index_of;    ///< cell index of a molecule ID
+
+  std::vector<Cell> local;
+  std::vector<int> atoms;
+  std::vector<rbc::Vec3> offsets;
+  rbc::CellElements whole;
+  std::vector<rbc::CellElements> parts;
+  std::vector<int> shared;    ///< cells that several ranks share, the same on all ranks
+  std::vector<double> buffer;
+  std::vector<double> unwrapped;    ///< positions of all atoms here, if there are several ranks
+  std::vector<double *> unwrapped_rows;
+
+  void check_complete(const std::vector<int> &owned_count) const;
+  void unwrap();
+  void find_neighbours(std::size_t at, tagint first, const std::vector<char> &owned, int rings);
+  void check_neighbours(std::size_t c, int rings, CollectiveStop &stop) const;
+  void find_shared(const std::vector<char> &is_part);
+  void set_origins();
+  rbc::Vec3 image_shift(int i) const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,122 @@
+#pragma once
+
+#include "contact/relative_motion.h"
+#include "geometry/plain_vector.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <vector>
+
+namespace rbc {
+
+class SpatialBins;
+
+/// Finds for points the closest point on each closed triangulated surface near them. Surfaces have numbers; a point
+/// belongs to one and does not see it, or only some of its triangles. Triangles may be a part of a surface, as long as
+/// those that share a corner with one in reach are there. Positions are three numbers for each point, of points and
+/// corners in one array.
+class NearTriangles {
+ public:
+  using Surface = std::int64_t;
+  static constexpr Surface NO_SURFACE =
+      std::numeric_limits<Surface>::min();    ///< a point of it sees nothing
+
+  /// Whether a point sees a triangle of its own surface, which is given by its place in the list of triangles.
+  using SeesOwn = std::function<bool(int point, int triangle)>;
+
+  struct Triangle {
+    std::array<int, 3> corner;    ///< right-handed outward
+    Surface surface;
+  };
+
+  /// A point near a surface.
+  struct Contact {
+    int point;
+    std::array<int, 3> corner;       ///< of the triangle closest to it
+    std::array<double, 3> weight;    ///< of the corners at the closest point
+    PlainVector normal;    ///< there, of unit length, outward, along the line to the point
+    double gap;            ///< distance, negative inside
+  };
+
+  /// Finds what comes within `range` of each other before anything has moved by travel / 2; where neighbors have come
+  /// nearer by more than `slack` contacts() finds it anew. `surfaces[n]` is that of point n < points <= corners; triangles
+  /// have their corners among the `corners` first positions. Without `sees_own` points see nothing of their own surface.
+  void build(int points, const Surface *surfaces, int corners, const double *x,
+             const std::vector<Triangle> &triangles, double range, double slack, double travel,
+             SeesOwn sees_own = {});
+
+  /// The same again for other positions.
+  void rebuild(const double *x);
+
+  /// By how much at most a point and a triangle in reach of it have come nearer since that: small where both move
+  /// with the same flow. A flow that carries them along is allowed to move them by travel / 2.
+  double largest_approach(const double *x);
+
+  /// All points nearer than range to a surface: one contact for each such surface. Rebuilds if it must.
+  const std::vector<Contact> &contacts(const double *x, double range);
+
+  std::size_t bytes() const;
+
+ private:
+  /// Triangles of one surface near one point.
+  struct Group {
+    int point, begin, end;
+  };
+  /// A triangle and its distance when built.
+  struct Candidate {
+    Surface surface;
+    double distance;
+    int triangle;
+  };
+  struct Sphere {
+    PlainVector centre;
+    double radius;
+  };
+  /// Bounding spheres of triangles, in the order of their bins.
+  struct Spheres {
+    std::vector<double> x, y, z, radius;
+    std::vector<Surface> surface;
+    std::vector<int> triangle;
+
+    void resize(std::size_t size);
+    void set(int n, PlainVector centre, double radius, Surface surface, int triangle);
+  };
+
+  /// Of the surfaces that have spheres in a bin, the lowest and the highest number.
+  struct SurfaceRange {
+    Surface lowest, highest;
+
+    void add(const SurfaceRange &other);
+    bool none_but(Surface surface) const { return lowest >= surface && highest <= surface; }
+  };
+
+  double reach_ = 0, slack_ = 0, travel_ = 0;
+  std::vector<Surface> surfaces_;    // of points
+  std::vector<Triangle> triangles_;
+  SeesOwn sees_own_;
+  std::vector<int> fan_begin_, fans_;    // triangles around each corner
+  RelativeMotion motion_;
+  int corners_ = 0;
+  std::vector<Sphere> bounds_;    // of each triangle
+  Spheres spheres_;
+  std::vector<SurfaceRange> in_bin_, around_bin_, scratch_;    // around: with the bins next to it
+  std::vector<int> bin_begin_, bin_of_, next_, hits_;
+  int hit_count_ = 0;
+  std::vector<Group> groups_;
+  std::vector<Candidate> candidates_;
+  std::vector<Contact> contacts_;
+
+  void build_fans(int corners);
+  double bound_triangles(const double *x);
+  void sort_spheres(const SpatialBins &bins);
+  void find_surface_ranges(const SpatialBins &bins);
+  void find_hits(const SpatialBins &bins, PlainVector point, Surface unseen, double far);
+  bool any_seen(int first_bin, int last_bin, Surface unseen) const;
+  void add_candidates(const double *x, int point);
+  PlainVector outward(const double *x, const std::array<int, 3> &corner,
+                      const std::array<double, 3> &weight, PlainVector face) const;
+};
+
+}    // namespace rbc

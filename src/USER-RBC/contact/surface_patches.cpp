@@ -1,0 +1,47 @@
+#include "contact/surface_patches.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+
+namespace rbc {
+
+std::vector<std::vector<int>> surface_patches(const SurfaceTemplate &surface, double distance)
+{
+  constexpr double far = std::numeric_limits<double>::max();
+  std::vector<std::vector<int>> patches(surface.size());
+  std::vector<double> path(surface.size(), far);
+  std::vector<int> reached;
+  using Step = std::pair<double, int>;
+  std::priority_queue<Step, std::vector<Step>, std::greater<>> next;
+
+  for (int start = 0; start < surface.size(); ++start) {
+    path[start] = 0;
+    next.emplace(0, start);
+    while (!next.empty()) {    // Dijkstra's algorithm
+      const auto [length, v] = next.top();
+      next.pop();
+      if (length > path[v]) continue;
+      reached.push_back(v);
+      for (int w : surface.neighbours[v]) {
+        const double longer = length + (surface.vertices[w] - surface.vertices[v]).norm();
+        if (longer > distance || longer >= path[w]) continue;
+        path[w] = longer;
+        next.emplace(longer, w);
+      }
+    }
+    auto &patch = patches[start];
+    for (int v : reached) {
+      patch.insert(patch.end(), surface.fans[v].begin(), surface.fans[v].end());
+      path[v] = far;
+    }
+    reached.clear();
+    std::sort(patch.begin(), patch.end());
+    patch.erase(std::unique(patch.begin(), patch.end()), patch.end());
+  }
+  return patches;
+}
+
+}    // namespace rbc

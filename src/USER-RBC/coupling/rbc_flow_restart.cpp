@@ -1,0 +1,74 @@
+#include "coupling/rbc_flow_restart.h"
+
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+
+/* ---------------------------------------------------------------------- */
+
+std::vector<double> FlowRestart::head(const fluid::Flow &flow) const
+{
+  const auto &cells = flow.grid().cells;
+  return {double(cells[0]),
+          double(cells[1]),
+          double(cells[2]),
+          domain->prd[0],
+          domain->prd[1],
+          domain->prd[2],
+          double(flow.grid().walls),
+          double(flow.regime().inertia),
+          double(flow.regime().scheme),
+          double(flow.history_length())};
+}
+
+double FlowRestart::bytes(const fluid::Flow &flow) const
+{
+  return sizeof(double) * (head(flow).size() + 1.0 + flow.history_length());
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FlowRestart::check_size(const fluid::Flow &flow) const
+{
+  if (bytes(flow) <= MAXSMALLINT) return;
+  const auto &cells = flow.grid().cells;
+  error->all(FLERR,
+             "{}: the history of {} x {} x {} cells, {:.3g} bytes, does not fit into a restart "
+             "file, which holds 2 GB of it",
+             style_, cells[0], cells[1], cells[2], bytes(flow));
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FlowRestart::write(FILE *fp, fluid::Flow &flow, bigint solves) const
+{
+  check_size(flow);
+  const std::vector<double> history = flow.history();
+  if (comm->me != 0) return;
+  std::vector<double> first = head(flow);
+  first.push_back(double(solves));
+  const int size = static_cast<int>(bytes(flow));
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(first.data(), sizeof(double), first.size(), fp);
+  fwrite(history.data(), sizeof(double), history.size(), fp);
+}
+
+/* ---------------------------------------------------------------------- */
+
+bigint FlowRestart::restore(const char *buffer, fluid::Flow &flow) const
+{
+  const auto found = reinterpret_cast<const double *>(buffer);
+  const std::vector<double> expected = head(flow);
+  if (!std::equal(expected.begin(), expected.end(), found))
+    error->all(FLERR,
+               "{}: the restart file holds this flow on a grid of {} {} {} cells, or in another "
+               "box, or with another inertia or scheme; define the fix as it was, or use another "
+               "fix ID to start from rest",
+               style_, found[0], found[1], found[2]);
+  flow.restore(found + expected.size() + 1);
+  return static_cast<bigint>(found[expected.size()]);
+}

@@ -1,0 +1,37 @@
+#ifndef LMP_RBC_FLOW_RESTART_H
+#define LMP_RBC_FLOW_RESTART_H
+
+#include "fluid/flow.h"
+#include "lmptype.h"
+#include "pointers.h"
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// A flow with inertia in restart files: numbers that tell what it belongs to, solves so far, then its history.
+class FlowRestart : protected Pointers {
+ public:
+  FlowRestart(LAMMPS *lmp, std::string style) : Pointers(lmp), style_(std::move(style)) {}
+
+  /// An error if the history is larger than what a restart file holds.
+  void check_size(const fluid::Flow &flow) const;
+
+  /// Collective.
+  void write(FILE *fp, fluid::Flow &flow, bigint solves) const;
+
+  /// Returns the solves so far.
+  bigint restore(const char *buffer, fluid::Flow &flow) const;
+
+ private:
+  std::string style_;
+
+  std::vector<double> head(const fluid::Flow &flow) const;
+  double bytes(const fluid::Flow &flow) const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,27 @@
+#ifndef LMP_RBC_FLUID_SETTINGS_H
+#define LMP_RBC_FLUID_SETTINGS_H
+
+#include "coupling/rbc_flow_drive.h"
+#include "fluid/flow.h"
+
+#include <array>
+#include <string>
+
+namespace LAMMPS_NS {
+
+/// The arguments of fix rbc/fluid but for its drive: which fluid, and on which grid.
+struct FluidSettings {
+  fluid::Regime regime;
+  std::array<int, 3> cells{};
+  bool plates = false;
+  bool free_mean = false;          ///< asked for: the mean velocity follows from forces
+  bool prescribed_mean = false;    ///< it is what was given
+  std::string inside;              ///< region; empty: the whole box
+};
+
+/// An error names the argument that is wrong.
+FluidSettings read_fluid_settings(LAMMPS *lmp, int narg, char **arg, FlowDrive &drive);
+
+}    // namespace LAMMPS_NS
+
+#endif

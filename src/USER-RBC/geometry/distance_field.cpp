@@ -1,0 +1,160 @@
+#include "geometry/distance_field.h"
+
+#include "geometry/triangle_distance.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace rbc {
+
+namespace {
+
+constexpr int spacings_per_radius = 32;
+
+/// Distance to a surface and the side, by the normals of the closest face, edge or corner. Those of corners are
+/// weighted with the angles of the faces: Baerentzen and Aanaes, IEEE Trans Vis Comput Graph 11, 243 (2005).
+class ExactDistance {
+ public:
+  explicit ExactDistance(const SurfaceTemplate &surface) :
+      surface_(surface), corner_normals_(surface.vertices.size(), Vec3::Zero()),
+      edge_normals_(surface.triangles.size())
+  {
+    for (const auto &corners : surface.triangles) {
+      Triangle triangle;
+      for (int c = 0; c < 3; ++c) triangle[c] = surface.vertices[corners[c]];
+      triangles_.push_back(triangle);
+      normals_.push_back((triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized());
+      const Vec3 middle = (triangle[0] + triangle[1] + triangle[2]) / 3;
+      double radius = 0;
+      for (const Vec3 &corner : triangle) radius = std::max(radius, (corner - middle).norm());
+      middles_.push_back(middle);
+      radii_.push_back(radius);
+      for (int c = 0; c < 3; ++c) {
+        const Vec3 u = triangle[(c + 1) % 3] - triangle[c], v = triangle[(c + 2) % 3] - triangle[c];
+        corner_normals_[corners[c]] += std::atan2(u.cross(v).norm(), u.dot(v)) * normals_.back();
+      }
+    }
+    for (const Hinge &hinge : surface.hinges)
+      for (int t : {hinge.left, hinge.right})
+        for (int c = 0; c < 3; ++c) {
+          const int corner = surface.triangles[t][c];
+          if (corner != hinge.a && corner != hinge.b)
+            edge_normals_[t][c] = normals_[hinge.left] + normals_[hinge.right];
+        }
+  }
+
+  /// Of a point known to be no further than `bound` away.
+  double operator()(const Vec3 &p, double bound) const
+  {
+    double least = std::numeric_limits<double>::infinity();
+    int nearest = 0;
+    std::array<double, 3> weights{};
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      const double too_far = std::min(bound, std::sqrt(least)) + radii_[t];
+      if ((p - middles_[t]).squaredNorm() > too_far * too_far) continue;
+      const auto w = closest_on_triangle(p, triangles_[t]);
+      const double square = (point(t, w) - p).squaredNorm();
+      if (square >= least) continue;
+      least = square;
+      nearest = t;
+      weights = w;
+    }
+    const double side = (p - point(nearest, weights)).dot(normal(nearest, weights));
+    return std::copysign(std::sqrt(least), side);
+  }
+
+ private:
+  const SurfaceTemplate &surface_;
+  std::vector<Triangle> triangles_;
+  std::vector<Vec3> normals_, middles_, corner_normals_;
+  std::vector<std::array<Vec3, 3>> edge_normals_;    ///< of the edge opposite to each corner
+  std::vector<double> radii_;
+
+  Vec3 point(int t, const std::array<double, 3> &w) const
+  {
+    return w[0] * triangles_[t][0] + w[1] * triangles_[t][1] + w[2] * triangles_[t][2];
+  }
+
+  Vec3 normal(int t, const std::array<double, 3> &w) const
+  {
+    const auto zeros = std::count(w.begin(), w.end(), 0.0);
+    if (zeros == 0) return normals_[t];
+    if (zeros == 1) return edge_normals_[t][std::find(w.begin(), w.end(), 0.0) - w.begin()];
+    return corner_normals_[surface_.triangles[t][std::max_element(w.begin(), w.end()) - w.begin()]];
+  }
+};
+
+}    // namespace
+
+DistanceField::DistanceField(const SurfaceTemplate &surface, double reach) :
+    lo_(surface.vertices[0]), hi_(lo_)
+{
+  for (const Vec3 &vertex : surface.vertices) {
+    lo_ = lo_.cwiseMin(vertex);
+    hi_ = hi_.cwiseMax(vertex);
+  }
+  spacing_ = (hi_ - lo_).maxCoeff() / 2 / spacings_per_radius;
+  lo_.array() -= reach;
+  for (int d = 0; d < 3; ++d) {
+    nodes_[d] = 1 + static_cast<int>(std::ceil((hi_[d] + reach - lo_[d]) / spacing_));
+    hi_[d] = lo_[d] + (nodes_[d] - 1) * spacing_;
+  }
+
+  const ExactDistance exact(surface);
+  distance_.reserve(std::size_t(nodes_[0]) * nodes_[1] * nodes_[2]);
+  for (int k = 0; k < nodes_[2]; ++k)
+    for (int j = 0; j < nodes_[1]; ++j) {
+      double bound = std::numeric_limits<double>::infinity();
+      for (int i = 0; i < nodes_[0]; ++i) {
+        const double distance = exact(lo_ + spacing_ * Vec3(i, j, k), bound);
+        distance_.push_back(static_cast<float>(distance));
+        bound = std::abs(distance) +
+                1.001 * spacing_;    // the distance changes no faster than the place
+      }
+    }
+}
+
+DistanceField::Sample DistanceField::at(const Vec3 &x) const
+{
+  const Vec3 nearest = x.cwiseMax(lo_).cwiseMin(hi_), beyond = x - nearest;
+  Sample sample = interpolated(nearest);
+  const double distance = beyond.norm();
+  if (distance > 0) {
+    sample.distance += distance;
+    for (int d = 0; d < 3; ++d)
+      if (beyond[d] != 0) sample.gradient[d] = 0;
+    sample.gradient += beyond / distance;
+  }
+  return sample;
+}
+
+DistanceField::Sample DistanceField::interpolated(const Vec3 &x) const
+{
+  const Vec3 place = (x - lo_) / spacing_;
+  int cell[3];
+  double w[3];
+  for (int d = 0; d < 3; ++d) {
+    cell[d] = std::min(static_cast<int>(place[d]), nodes_[d] - 2);
+    w[d] = place[d] - cell[d];
+  }
+  const std::size_t row = nodes_[0], layer = row * nodes_[1];
+  const float *corner = &distance_[cell[0] + row * cell[1] + layer * cell[2]];
+  double along_x[2][2], slope_x[2][2];
+  for (int k = 0; k < 2; ++k)
+    for (int j = 0; j < 2; ++j) {
+      const float *pair = corner + j * row + k * layer;
+      slope_x[k][j] = pair[1] - pair[0];
+      along_x[k][j] = pair[0] + w[0] * slope_x[k][j];
+    }
+  const double slope_y[2] = {along_x[0][1] - along_x[0][0], along_x[1][1] - along_x[1][0]};
+  const double along_y[2] = {along_x[0][0] + w[1] * slope_y[0], along_x[1][0] + w[1] * slope_y[1]};
+  const double x_low = slope_x[0][0] + w[1] * (slope_x[0][1] - slope_x[0][0]),
+               x_high = slope_x[1][0] + w[1] * (slope_x[1][1] - slope_x[1][0]);
+  return {along_y[0] + w[2] * (along_y[1] - along_y[0]),
+          Vec3(x_low + w[2] * (x_high - x_low), slope_y[0] + w[2] * (slope_y[1] - slope_y[0]),
+               along_y[1] - along_y[0]) /
+              spacing_};
+}
+
+}    // namespace rbc

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "geometry/plain_vector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace rbc {
+
+/// Boxes of equal size that cover the points; what is outside counts to those at the rim.
+class SpatialBins {
+ public:
+  SpatialBins(const double *x, int points, double size)
+  {
+    constexpr double most = 1e6;
+    double lo[3], hi[3];
+    for (int d = 0; d < 3; ++d) {
+      lo[d] = std::numeric_limits<double>::max();
+      hi[d] = -lo[d];
+    }
+    for (int n = 0; n < points; ++n)
+      for (int d = 0; d < 3; ++d) {
+        lo[d] = std::min(lo[d], x[3 * std::size_t(n) + d]);
+        hi[d] = std::max(hi[d], x[3 * std::size_t(n) + d]);
+      }
+    double volume = 1;
+    for (int d = 0; d < 3; ++d) volume *= std::max(hi[d] - lo[d], size);
+    size_ = std::max(size, std::cbrt(volume / most));
+    inverse_ = 1 / size_;
+    for (int d = 0; d < 3; ++d) {
+      lo_[d] = lo[d];
+      count_[d] = points > 0 ? static_cast<int>((hi[d] - lo[d]) * inverse_) + 1 : 1;
+    }
+  }
+
+  int count(int d) const { return count_[d]; }
+  int count() const { return count_[0] * count_[1] * count_[2]; }
+  int index(int i, int j, int k) const { return i + count_[0] * (j + count_[1] * k); }
+  int along(int d, double x) const
+  {
+    return static_cast<int>(std::min(std::max(0.0, (x - lo_[d]) * inverse_), count_[d] - 1.0));
+  }
+  int of(PlainVector x) const { return index(along(0, x.x), along(1, x.y), along(2, x.z)); }
+
+  /// Distance along a direction to the bins numbered n there; those at the rim have no end.
+  double distance(int d, int n, double x) const
+  {
+    const double lower = n == 0 ? x : lo_[d] + n * size_;
+    const double upper = n == count_[d] - 1 ? x : lo_[d] + (n + 1) * size_;
+    return std::max({0.0, lower - x, x - upper});
+  }
+
+ private:
+  double lo_[3], size_, inverse_;
+  int count_[3];
+};
+
+/// Adds to each bin's value those of the bins around it, in boxes numbered as those of SpatialBins, `count` along each
+/// direction. `scratch` is of no use afterwards.
+template <typename Value>
+void merge_neighbors(const int (&count)[3], std::vector<Value> &values, std::vector<Value> &scratch)
+{
+  for (std::size_t d = 0, stride = 1; d < 3; stride *= count[d++]) {
+    scratch = values;
+    for (std::size_t b = 0; b < values.size(); ++b) {
+      const int place = static_cast<int>(b / stride % count[d]);
+      if (place > 0) scratch[b].add(values[b - stride]);
+      if (place < count[d] - 1) scratch[b].add(values[b + stride]);
+    }
+    values.swap(scratch);
+  }
+}
+
+}    // namespace rbc

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "geometry/surface_template.h"
+
+namespace rbc {
+
+/// The elements of one cell that a rank evaluates: all of them, or for a cell that other ranks share those needed
+/// for the forces on the vertices it owns. Elements are known by their place in the lists here.
+struct CellElements {
+  std::vector<char> owned;               ///< of each vertex of the template
+  std::vector<int> triangles, hinges;    ///< of the template
+  int loaded = 0;                        ///< triangles that touch an owned vertex; they come first
+
+  std::array<std::vector<int>, 3> corners;     ///< of each triangle
+  std::array<std::vector<int>, 3> opposite;    ///< of loaded triangles: hinge facing each corner
+  std::vector<int> begin, end;                 ///< vertices of each hinge: a and b
+  std::vector<int> left, right;                ///< triangles of each hinge
+
+  /// 1 where this rank counts the energy, 0 where another does: the owner of the first vertex.
+  std::vector<double> triangle_counts, hinge_counts;
+
+  /// Corners around each owned vertex: of vertex v from fan_begin[v] to fan_begin[v + 1]. Corner c of triangle t is
+  /// c * loaded + t.
+  std::vector<int> fan, fan_begin;
+
+  static CellElements whole(const SurfaceTemplate &shape);
+
+  /// Elements around the owned vertices, and with bending around their neighbours too.
+  static CellElements part(const SurfaceTemplate &shape, std::vector<char> owned, bool bending);
+
+ private:
+  void connect(const SurfaceTemplate &shape);
+};
+
+}    // namespace rbc

@@ -1,0 +1,96 @@
+#include "motion/chebyshev.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rbc {
+
+/// With the usual damping of 2/13 the fastest modes fall to 0.95 in a step. Differences of past places amplify what is
+/// left of them: somewhat stronger damping, at 1 % less stability.
+ChebyshevMethod::ChebyshevMethod(int order) : order_(order), damping_(order == 2 ? 2.0 / 13 : 0.25)
+{
+}
+
+double ChebyshevMethod::stability_limit(int stages) const
+{
+  return 2.0 / 3 * (double(stages) * stages - 1) * (1 - 2.0 / 15 * damping_);
+}
+
+int ChebyshevMethod::stages_for(double stiffness) const
+{
+  const double per_square = stability_limit(2) / 3;
+  const double stages = std::ceil(std::sqrt(1 + stiffness / per_square));
+  return static_cast<int>(std::clamp(stages, double(LEAST_STAGES), MOST_STAGES + 1.0));
+}
+
+void ChebyshevMethod::set_stages(int s)
+{
+  if (s == stages()) return;
+  const double w0 = 1 + damping_ / (double(s) * s);
+  // Chebyshev polynomials at w0 and their first two derivatives
+  std::vector<double> T(s + 1), T1(s + 1), T2(s + 1), b(s + 1), c(s + 1);
+  T[0] = 1;
+  T[1] = w0;
+  T1[1] = 1;
+  for (int j = 2; j <= s; ++j) {
+    T[j] = 2 * w0 * T[j - 1] - T[j - 2];
+    T1[j] = 2 * T[j - 1] + 2 * w0 * T1[j - 1] - T1[j - 2];
+    T2[j] = 4 * T1[j - 1] + 2 * w0 * T2[j - 1] - T2[j - 2];
+  }
+  const double w1 = T1[s] / T2[s];
+  for (int j = 2; j <= s; ++j) {
+    b[j] = T2[j] / (T1[j] * T1[j]);
+    c[j] = w1 * T2[j] / T1[j];
+  }
+  b[0] = b[1] = b[2];
+  c[1] = c[2] / T1[2];
+
+  stages_.resize(s);
+  stages_[0] = {0, 0, 0, b[1] * w1, c[1]};
+  for (int j = 2; j <= s; ++j) {
+    const double rate = 2 * b[j] * w1 / b[j - 1], a = 1 - b[j - 1] * T[j - 1];
+    stages_[j - 1] = {2 * b[j] * w0 / b[j - 1], -b[j] / b[j - 2], rate, -a * rate, c[j]};
+  }
+}
+
+void ChebyshevMethod::step(Motion &motion, double dt, const Numbers &start, const Numbers &velocity,
+                           const Path &past, Numbers &x, double begin, double part)
+{
+  const std::size_t n = start.size();
+  for (auto *vector : {&deviation_, &before_}) vector->assign(n, 0.0);
+  x.resize(n);
+  rate_ = velocity;
+  const auto place = [&](double at) {
+    for (std::size_t i = 0; i < n; ++i) x[i] = start[i] + deviation_[i];
+    past.add_to(x, past.place(at * dt), 1);
+  };
+
+  first_rate_ = velocity;
+  past.add_to(first_rate_, past.speed(0), -1);
+  for (std::size_t i = 0; i < n; ++i) deviation_[i] = dt * stages_[0].base * first_rate_[i];
+  for (int j = 1; j < stages(); ++j) {
+    const double at = stages_[j - 1].at;
+    place(at);
+    motion.velocity(x, begin + part * at, rate_);
+    past.add_to(rate_, past.speed(at * dt), -1);
+    const Stage &stage = stages_[j];
+    for (std::size_t i = 0; i < n; ++i) {
+      const double next = stage.mu * deviation_[i] + stage.nu * before_[i] +
+                          dt * (stage.rate * rate_[i] + stage.base * first_rate_[i]);
+      before_[i] = deviation_[i];
+      deviation_[i] = next;
+    }
+    past.add_to(rate_, past.speed(at * dt), 1);
+  }
+  place(1);
+}
+
+std::size_t ChebyshevMethod::numbers() const
+{
+  std::size_t sum = 0;
+  for (const Numbers *vector : {&rate_, &first_rate_, &deviation_, &before_})
+    sum += vector->capacity();
+  return sum;
+}
+
+}    // namespace rbc

@@ -1,0 +1,88 @@
+#include "motion/gmres.h"
+
+#include <cmath>
+
+namespace rbc {
+
+double Gmres::solve(const Operator &apply, const Motion &motion, const Numbers &r, double tolerance,
+                    Numbers &y)
+{
+  const std::size_t n = r.size();
+  iterations_ = 0;
+  double residual = std::sqrt(dot(motion, r, r));
+  if (!(residual > tolerance)) return residual;
+
+  if (hessenberg_.cols() != max_iterations) {
+    basis_.resize(max_iterations + 1);
+    hessenberg_.resize(max_iterations + 1, max_iterations);
+    rotated_.resize(max_iterations + 1);
+    cosine_.resize(max_iterations);
+    sine_.resize(max_iterations);
+  }
+  basis_[0].resize(n);
+  for (std::size_t i = 0; i < n; ++i) basis_[0][i] = r[i] / residual;
+  rotated_[0] = residual;
+
+  int k = 0;
+  while (k < max_iterations && residual > tolerance) {
+    basis_[k + 1].resize(n);
+    apply(basis_[k], basis_[k + 1]);
+    const double length = orthogonalise(motion, k);
+    rotate(k);
+    residual = std::abs(rotated_[++k]);
+    if (!(length > 0)) break;
+  }
+  iterations_ = k;
+
+  const Eigen::VectorXd weights =
+      hessenberg_.topLeftCorner(k, k).triangularView<Eigen::Upper>().solve(rotated_.head(k));
+  for (int j = 0; j < k; ++j)
+    for (std::size_t i = 0; i < n; ++i) y[i] += weights[j] * basis_[j][i];
+  return residual;
+}
+
+/// Classical Gram-Schmidt of vector k + 1 against those before; returns the length of what is left.
+double Gmres::orthogonalise(const Motion &motion, int k)
+{
+  Numbers &next = basis_[k + 1];
+  auto column = hessenberg_.col(k);
+  for (int j = 0; j <= k; ++j) {
+    double overlap = 0;
+    for (std::size_t i = 0; i < next.size(); ++i) overlap += next[i] * basis_[j][i];
+    column[j] = overlap;
+  }
+  motion.sum(column.data(), k + 1);
+  for (int j = 0; j <= k; ++j)
+    for (std::size_t i = 0; i < next.size(); ++i) next[i] -= column[j] * basis_[j][i];
+  const double length = std::sqrt(dot(motion, next, next));
+  column[k + 1] = length;
+  if (length > 0)
+    for (double &value : next) value /= length;
+  return length;
+}
+
+/// Givens rotations that make the Hessenberg matrix triangular.
+void Gmres::rotate(int k)
+{
+  auto column = hessenberg_.col(k);
+  for (int j = 0; j < k; ++j) {
+    const double upper = column[j], lower = column[j + 1];
+    column[j] = cosine_[j] * upper + sine_[j] * lower;
+    column[j + 1] = cosine_[j] * lower - sine_[j] * upper;
+  }
+  const double diagonal = std::hypot(column[k], column[k + 1]);
+  cosine_[k] = column[k] / diagonal;
+  sine_[k] = column[k + 1] / diagonal;
+  column[k] = diagonal;
+  rotated_[k + 1] = -sine_[k] * rotated_[k];
+  rotated_[k] *= cosine_[k];
+}
+
+std::size_t Gmres::numbers() const
+{
+  std::size_t sum = 0;
+  for (const Numbers &vector : basis_) sum += vector.capacity();
+  return sum;
+}
+
+}    // namespace rbc

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "motion/motion.h"
+
+#include <Eigen/Core>
+#include <functional>
+
+namespace rbc {
+
+/// Generalised minimal residual method for A y = r with a linear operator known by its action only (Saad and Schultz,
+/// SIAM J. Sci. Stat. Comput. 7 (1986) 856), without restarts: it keeps a vector per iteration.
+class Gmres {
+ public:
+  using Operator = std::function<void(const Numbers &, Numbers &)>;
+
+  int max_iterations = 100;
+
+  /// Adds to y the solution for r, until the length of the residual is not above `tolerance` or max_iterations were
+  /// made. Returns that length. Two sums over ranks per iteration.
+  double solve(const Operator &apply, const Motion &motion, const Numbers &r, double tolerance,
+               Numbers &y);
+
+  int iterations() const { return iterations_; }    ///< of the last solve
+  std::size_t numbers() const;
+
+ private:
+  std::vector<Numbers> basis_;
+  Eigen::MatrixXd hessenberg_;
+  Eigen::VectorXd rotated_, cosine_, sine_;
+  int iterations_ = 0;
+
+  double orthogonalise(const Motion &motion, int k);
+  void rotate(int k);
+};
+
+}    // namespace rbc

@@ -1,0 +1,43 @@
+#include "motion/spectral_radius.h"
+
+#include <cmath>
+
+namespace rbc {
+
+double SpectralRadius::estimate(Motion &motion, const Numbers &x, const Numbers &velocity,
+                                double size, Numbers &mode)
+{
+  const std::size_t n = x.size();
+  displaced_.resize(n);
+  changed_ = velocity;
+  double radius = 0;
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
+    const double scale = size / root_mean_square(motion, mode);
+    for (std::size_t i = 0; i < n; ++i) displaced_[i] = x[i] + scale * mode[i];
+    motion.velocity(displaced_, 0, changed_);
+    for (std::size_t i = 0; i < n; ++i) mode[i] = changed_[i] - velocity[i];
+    const double before = radius;
+    radius = root_mean_square(motion, mode) / size;
+    const bool steady = std::abs(radius - before) <= tolerance * radius;
+    if (!(radius > 0) || (steady && iteration + 1 >= min_iterations)) break;
+  }
+  return radius;
+}
+
+void SpectralRadius::suspect(const Motion &motion, const Numbers &start, const Numbers &end,
+                             const Numbers &velocity, Numbers &mode)
+{
+  const std::size_t n = start.size();
+  changed_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) changed_[i] = end[i] - start[i];
+  const double square = dot(motion, velocity, velocity);
+  const double time = square > 0 ? dot(motion, changed_, velocity) / square : 0;
+  for (std::size_t i = 0; i < n; ++i) changed_[i] -= time * velocity[i];
+  const double grown = root_mean_square(motion, changed_), known = root_mean_square(motion, mode);
+  if (!(grown > 0 && std::isfinite(grown))) return;
+  const double sign = dot(motion, mode, changed_) < 0 ? -1 : 1;    // they must not cancel
+  const double share = known > 0 ? sign / known : 0;
+  for (std::size_t i = 0; i < n; ++i) mode[i] = share * mode[i] + changed_[i] / grown;
+}
+
+}    // namespace rbc
