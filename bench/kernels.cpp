@@ -1,8 +1,8 @@
 // Time of the solver's parts by themselves, on any number of ranks. One rank also times the Fourier transforms
 // that a solve cannot do without, in turn with the solves, so that what else the machine does hits both.
 
-#include "fluid/coupling.h"
 #include "fluid/halo.h"
+#include "fluid/spreading.h"
 #include "fluid/stokes_solver.h"
 #include "molecule_file.h"
 
@@ -115,12 +115,12 @@ class BareTransforms {
   {
     const auto [nx, ny, nz] = grid.cells;
     const int padded = 2 * (nx / 2 + 1);
-    calls_ = grid.walls ? 3 * nz : 3;
-    stride_ = std::size_t(padded) * ny * (grid.walls ? 1 : nz);
+    calls_ = grid.plates ? 3 * nz : 3;
+    stride_ = std::size_t(padded) * ny * (grid.plates ? 1 : nz);
     values_ = Buffer<double>(calls_ * stride_);
     double *real = values_.data();
     auto *modes = reinterpret_cast<fftw_complex *>(real);
-    if (grid.walls) {
+    if (grid.plates) {
       forward_ = Plan(fftw_plan_dft_r2c_2d(ny, nx, real, modes, planning));
       backward_ = Plan(fftw_plan_dft_c2r_2d(ny, nx, modes, real, planning));
     } else {
@@ -181,7 +181,7 @@ void solve(benchmark::State &state, const Index3 &cells, bool walls, double shif
 }
 
 /// Vertices of a red cell about a point.
-std::vector<double> red_cell(const Vec3 &centre)
+std::vector<double> red_cell(const Real3 &centre)
 {
   std::vector<double> x;
   for (const auto &v : MoleculeFile(POTENTIALS "/rbc_642.mol").vertices)
@@ -196,19 +196,20 @@ void couple(benchmark::State &state, const Index3 &cells, KernelKind kernel, boo
   const Decomposition decomposition = slabs(grid);
   const Halo halo(grid, decomposition, ghost_layers);
   const VectorField field = filled(halo.box());
-  Vec3 centre;
+  Real3 centre;
   for (int d = 0; d < 3; ++d)
     centre[d] = 0.5 * spacing * (decomposition.mine().lo[d] + decomposition.mine().hi[d]);
   const std::vector<double> x = red_cell(centre);
   std::vector<double> vectors(x.size(), 1.0);
   std::vector<int> index(x.size() / 3);
   for (std::size_t n = 0; n < index.size(); ++n) index[n] = static_cast<int>(n);
-  const Markers markers{static_cast<int>(index.size()), index.data()};
+  const MarkerSet markers{kernel, MarkerKind::points, static_cast<int>(index.size()), index.data(),
+                          x.data()};
   run(state, markers.count, [&] {
     if (spreads)
-      spread(kernel, grid, markers, x.data(), vectors.data(), 1.0, field);
+      spread(grid, markers, vectors.data(), 1.0, field);
     else
-      interpolate(kernel, grid, markers, x.data(), field, vectors.data());
+      interpolate(grid, markers, field, vectors.data());
   });
 }
 

@@ -2,6 +2,7 @@
 // viscous Courant numbers nu dt / h^2, in the middle of the last step, where markers move with the velocity. Prints CSV.
 
 #include "fluid/flow.h"
+#include "forced_flow.h"
 
 #include <cmath>
 #include <cstdio>
@@ -10,6 +11,7 @@
 namespace {
 
 using namespace fluid;
+using test::ForcedFlow;
 
 constexpr int n = 32;
 constexpr double pi = 3.14159265358979323846;
@@ -20,15 +22,15 @@ constexpr double omega = 0.2 / largest_step, duration = 16 * largest_step;
 
 const Grid grid{{4, n, n}, {0, 0, 0}, {h, h, h}, true};
 
-Drive drive(double t)
+Forcing drive(double t)
 {
-  Drive drive;
-  drive.walls.upper = {std::sin(omega * t), 0.2 * std::cos(omega * t), 0};
+  Forcing drive;
+  drive.plates.upper = {std::sin(omega * t), 0.2 * std::cos(omega * t), 0};
   drive.body = {10 * std::cos(omega * t), 0, 0};
   return drive;
 }
 
-void set_force(const Flow &flow, double t)
+void set_force(const ForcedFlow &flow, double t)
 {
   const Box &brick = flow.brick();
   const double one = 50 * std::cos(omega * t), other = 50 * std::sin(omega * t + 1);
@@ -53,7 +55,7 @@ struct State {
   std::vector<double> velocity, pressure, plate;
 };
 
-State state(Flow &flow)
+State state(ForcedFlow &flow)
 {
   State state;
   const Box &brick = flow.brick();
@@ -87,17 +89,18 @@ double rms(const std::vector<double> &a, const std::vector<double> &b = {})
 template <typename Visit>
 void run(const Decomposition &decomposition, Scheme scheme, int steps, Visit visit)
 {
-  Flow flow(grid, decomposition, 1, Regime{viscosity, density, Inertia::unsteady, scheme});
+  ForcedFlow flow(grid, decomposition, 1,
+                  FlowEquations{viscosity, density, Inertia::unsteady, scheme});
   const double dt = duration / steps;
   for (int step = 0; step < steps; ++step) {
-    const Drive start = drive(step * dt), end = drive((step + 1) * dt);
-    flow.drive = start;
-    flow.drive.walls.upper = mean(start.walls.upper, end.walls.upper);
-    flow.drive.body = mean(start.body, end.body);
+    const Forcing start = drive(step * dt), end = drive((step + 1) * dt);
+    flow.forcing = start;
+    flow.forcing.plates.upper = mean(start.plates.upper, end.plates.upper);
+    flow.forcing.body = mean(start.body, end.body);
     set_force(flow, (step + 0.5) * dt);
     flow.start_step(dt);
     visit(flow, step);
-    flow.drive = end;
+    flow.forcing = end;
     flow.finish_step();
   }
 }
@@ -105,7 +108,7 @@ void run(const Decomposition &decomposition, Scheme scheme, int steps, Visit vis
 State last(const Decomposition &decomposition, Scheme scheme, int steps)
 {
   State last;
-  run(decomposition, scheme, steps, [&](Flow &flow, int step) {
+  run(decomposition, scheme, steps, [&](ForcedFlow &flow, int step) {
     if (step == steps - 1) last = state(flow);
   });
   return last;
@@ -122,7 +125,7 @@ void compare(const Decomposition &decomposition)
   std::map<int, std::vector<State>> around;
   const int total = steps_of(reference);
   for (double number : numbers) around[total - std::lround(number / (2 * reference))];
-  run(decomposition, Scheme::coupled, total, [&](Flow &flow, int step) {
+  run(decomposition, Scheme::coupled, total, [&](ForcedFlow &flow, int step) {
     for (auto &[end, states] : around)
       if (step == end - 1 || step == end) states.push_back(state(flow));
   });

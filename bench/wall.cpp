@@ -30,28 +30,29 @@ struct Tube {
     body.assign(points.index.size(), 0);
   }
 
-  void start(Flow &flow, double at) const
+  void start(ForcedFlow &flow, double at) const
   {
-    flow.drive.mean = {1, 0, 0};
+    flow.forcing.mean = {1, 0, 0};
     flow.clear_force();
-    const Vec3 x0{at, 0.5 * grid.cells[1] + 0.75 * radius, 0.5 * grid.cells[2]};
+    const Real3 x0{at, 0.5 * grid.cells[1] + 0.75 * radius, 0.5 * grid.cells[2]};
     for (int c = 0; c < 2; ++c)
       set(flow.force()[c], flow.brick(), [&](int i, int j, int k) {
-        const Vec3 x = location(grid, c, i, j, k);
+        const Real3 x = location(grid, c, i, j, k);
         double square = 0;
         for (int d = 0; d < 3; ++d) square += std::pow((x[d] - x0[d]) / (0.1 * radius), 2);
         return (c == 0 ? -3 : 6) / radius * std::exp(-square);
       });
   }
 
-  double slip(Flow &flow) const
+  double slip(ForcedFlow &flow) const
   {
     std::vector<double> u(position.size());
     std::vector<int> index(points.index.size());
     for (std::size_t n = 0; n < index.size(); ++n) index[n] = static_cast<int>(n);
-    flow.share_velocity();
-    flow.interpolate(KernelKind::peskin4, {static_cast<int>(index.size()), index.data()},
-                     position.data(), u.data());
+    flow.fill_ghosts();
+    flow.interpolate({KernelKind::peskin4, MarkerKind::points, static_cast<int>(index.size()),
+                      index.data(), position.data()},
+                     u.data());
     double slip = 0, speed = 0;
     for (std::size_t n = 0; n < u.size(); n += 3)
       slip = std::max(slip, std::sqrt(u[n] * u[n] + u[n + 1] * u[n + 1] + u[n + 2] * u[n + 2]));
@@ -73,17 +74,19 @@ void print(const char *name, const Tube &tube, const char *method, int solves, d
 void plain(const char *name, const Tube &tube)
 {
   std::vector<double> none(3 * tube.points.count()), force(none), velocity(none), x;
-  for (const Vec3 &at : tube.points.position) x.insert(x.end(), at.begin(), at.end());
+  for (const Real3 &at : tube.points.position) x.insert(x.end(), at.begin(), at.end());
   for (int solves : {2, 4, 8, 16, 32, 64, 128}) {
-    Flow flow(tube.grid, tube.decomposition, 4, Regime{});
+    ForcedFlow flow(tube.grid, tube.decomposition, 4, FlowEquations{});
     std::fill(force.begin(), force.end(), 0.0);
-    flow.drive.mean = {1, 0, 0};
-    DirectForcing forcing;
-    forcing.tolerance = 1e-12;
-    forcing.max_solves = solves;
-    forcing.advance(flow, 0,
-                    {KernelKind::peskin4, tube.points.markers(), x.data(), none.data(), nullptr,
-                     none.data(), force.data(), velocity.data(), tube.points.count()});
+    flow.forcing.mean = {1, 0, 0};
+    DirectForcing direct;
+    direct.tolerance = 1e-12;
+    direct.max_solves = solves;
+    MarkerSet markers = tube.points.markers(KernelKind::peskin4);
+    markers.position = x.data();
+    direct.advance(flow, 0, flow.forcing,
+                   {markers, none.data(), nullptr, none.data(), force.data(), velocity.data(),
+                    tube.points.count()});
     print(name, tube, "plain", solves, tube.slip(flow));
   }
 }
@@ -91,23 +94,26 @@ void plain(const char *name, const Tube &tube)
 void rigid(const char *name, const Tube &tube, bool recycled)
 {
   for (int solves = 1; solves <= (recycled ? 4 : 32); ++solves) {
-    Flow flow(tube.grid, tube.decomposition, 4, Regime{});
+    ForcedFlow flow(tube.grid, tube.decomposition, 4, FlowEquations{});
     RigidSurface surface;
     surface.set_markers(flow, KernelKind::peskin4, static_cast<int>(tube.body.size()),
                         tube.position.data(), tube.body.data());
     const auto evaluate = [&](double time) {
       tube.start(flow, 4 + 0.05 * time);
       surface.spread(flow, time, {0, 0, 0});
-      flow.gather_force();
+      flow.accumulate_ghosts();
       flow.solve();
       surface.enforce(flow);
     };
-    surface.tolerance = recycled ? 1e-3 : 1e-12;
-    surface.max_solves = recycled ? 100 : solves;
+    RigidSurface::Settings settings;
+    settings.tolerance = recycled ? 1e-3 : 1e-12;
+    settings.max_solves = recycled ? 100 : solves;
+    surface.choose(settings);
     for (int time = 0; time < (recycled ? 20 : 1); ++time) evaluate(time);
     if (recycled) {
-      surface.tolerance = 1e-12;
-      surface.max_solves = solves;
+      settings.tolerance = 1e-12;
+      settings.max_solves = solves;
+      surface.choose(settings);
       evaluate(20);
     }
     print(name, tube, recycled ? "recycled" : "preconditioned", solves, tube.slip(flow));

@@ -38,13 +38,14 @@ template <typename Work> double seconds(const Work &work)
 /// its period.
 class Force {
  public:
-  Force(const Manufactured &exact, const Flow &flow, int frequencies) : now_(flow.force().box())
+  Force(const Manufactured &exact, const ForcedFlow &flow, int frequencies) :
+      now_(flow.force().box())
   {
     for (int m = 0; m <= 2 * frequencies; ++m) {
       times_.push_back(2 * pi * m / (2 * frequencies + 1));
       samples_.emplace_back(now_.box());
       set_vector(samples_.back(), flow.grid(), flow.brick(),
-                 [&](int c, const Vec3 &x) { return exact.force(c, x, times_[m]); });
+                 [&](int c, const Real3 &x) { return exact.force(c, x, times_[m]); });
     }
   }
 
@@ -76,7 +77,7 @@ class Force {
   std::vector<VectorField> samples_;
 };
 
-Vec3 mean(const Vec3 &a, const Vec3 &b)
+Real3 mean(const Real3 &a, const Real3 &b)
 {
   return {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
 }
@@ -87,7 +88,7 @@ struct Errors {
   double velocity, pressure;
 };
 
-Errors errors(const Manufactured &exact, Flow &flow, double end, double middle)
+Errors errors(const Manufactured &exact, ForcedFlow &flow, double end, double middle)
 {
   const VectorField &u = flow.velocity();
   const ScalarField &p = flow.pressure();
@@ -105,22 +106,22 @@ Errors errors(const Manufactured &exact, Flow &flow, double end, double middle)
   return {velocity.rms() / speed.rms(), pressure.rms() / push.rms()};
 }
 
-std::unique_ptr<Flow> make_flow(const Manufactured &exact, int n, Scheme scheme)
+std::unique_ptr<ForcedFlow> make_flow(const Manufactured &exact, int n, Scheme scheme)
 {
   const Grid grid = exact.grid({n, n, n});
   const bool hold_mean = exact.walls || exact.inertia == Inertia::none;
-  const Regime regime{exact.viscosity, exact.density, exact.inertia, scheme, hold_mean};
-  auto flow = std::make_unique<Flow>(grid, alone(grid), 1, regime);
+  const FlowEquations equations{exact.viscosity, exact.density, exact.inertia, scheme, hold_mean};
+  auto flow = std::make_unique<ForcedFlow>(grid, alone(grid), 1, equations);
   flow->set_velocity([&](int c, int i, int j, int k) {
     return exact.velocity(c, location(grid, c, i, j, k), start);
   });
   return flow;
 }
 
-Drive drive(const Manufactured &exact, double t)
+Forcing drive(const Manufactured &exact, double t)
 {
-  Drive drive;
-  drive.walls = {exact.plate(false, t), exact.plate(true, t)};
+  Forcing drive;
+  drive.plates = {exact.plate(false, t), exact.plate(true, t)};
   return drive;
 }
 
@@ -152,21 +153,21 @@ void march(const Manufactured &exact, int n, Force &force, std::vector<Series> &
 {
   const std::size_t steps = all[0].step_seconds.size();
   const double dt = duration / steps;
-  std::vector<std::unique_ptr<Flow>> flows;
+  std::vector<std::unique_ptr<ForcedFlow>> flows;
   for (const Series &series : all) {
     flows.push_back(make_flow(exact, n, series.scheme));
-    flows.back()->drive = drive(exact, start);
+    flows.back()->forcing = drive(exact, start);
   }
   for (std::size_t step = 0; step < steps; ++step) {
     const VectorField &now = force.at(start + (step + 0.5) * dt);
-    const Drive end = drive(exact, start + (step + 1) * dt);
+    const Forcing end = drive(exact, start + (step + 1) * dt);
     for (std::size_t s = 0; s < all.size(); ++s) {
-      Flow &flow = *flows[s];
+      ForcedFlow &flow = *flows[s];
       std::copy_n(now[0].data, 3 * now.box().size(), flow.force()[0].data);
-      const Walls &from = flow.drive.walls, &to = end.walls;
-      flow.drive.walls = {mean(from.lower, to.lower), mean(from.upper, to.upper)};
+      const PlateVelocities &from = flow.forcing.plates, &to = end.plates;
+      flow.forcing.plates = {mean(from.lower, to.lower), mean(from.upper, to.upper)};
       const double spent = seconds([&] { flow.start_step(dt); });
-      flow.drive = end;
+      flow.forcing = end;
       double &least = all[s].step_seconds[step];
       least = std::min(least, spent + seconds([&] { flow.finish_step(); }));
     }
@@ -203,8 +204,8 @@ Series solve(const Manufactured &exact, int n)
   Series series{Scheme::coupled, {HUGE_VAL}};
   const auto flow = make_flow(exact, n, series.scheme);
   set_vector(flow->force(), flow->grid(), flow->brick(),
-             [&](int c, const Vec3 &x) { return exact.force(c, x, instant); });
-  flow->drive = drive(exact, instant);
+             [&](int c, const Real3 &x) { return exact.force(c, x, instant); });
+  flow->forcing = drive(exact, instant);
   double &least = series.step_seconds[0];
   for (int repeat = 0; repeat < 20; ++repeat)
     least = std::min(least, seconds([&] { flow->solve(); }));
@@ -244,7 +245,7 @@ void study(const Setting &setting, bool walls, int n)
 int main(int argc, char **argv)
 {
   MPI_Init(&argc, &argv);
-  std::printf("regime,scheme,boundary,cells,dt,viscous_courant,courant,steps,run_time_s,"
+  std::printf("equations,scheme,boundary,cells,dt,viscous_courant,courant,steps,run_time_s,"
               "ns_per_cell_step,velocity_error,pressure_error\n");
   for (const Setting &setting : settings)
     for (bool walls : {true, false})

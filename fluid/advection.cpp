@@ -11,7 +11,7 @@ namespace {
 struct Fluxes {
   std::array<const double *, 3> u;
   std::array<std::ptrdiff_t, 3> along;
-  Vec3 quarter;
+  Real3 quarter;
 
   template <int c> double divergence(std::ptrdiff_t p) const
   {
@@ -65,7 +65,7 @@ void add_advection(const Grid &grid, const Box &brick, const VectorField &veloci
 FastestCell fastest_cell(const Grid &grid, const Box &brick, const VectorField &velocity)
 {
   const auto u = velocity.views();
-  const Vec3 inverse{1 / grid.spacing[0], 1 / grid.spacing[1], 1 / grid.spacing[2]};
+  const Real3 inverse{1 / grid.spacing[0], 1 / grid.spacing[1], 1 / grid.spacing[2]};
   const int first = brick.lo[0], n = brick.extent(0);
   FastestCell fastest;
   for_each_row(brick, [&](int j, int k) {

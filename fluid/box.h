@@ -7,7 +7,7 @@
 namespace fluid {
 
 using Index3 = std::array<int, 3>;
-using Vec3 = std::array<double, 3>;
+using Real3 = std::array<double, 3>;
 
 /// Half-open range of grid indices, lo <= i < hi in each direction.
 struct Box {

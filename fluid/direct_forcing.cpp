@@ -6,7 +6,7 @@ namespace fluid {
 
 namespace {
 
-template <typename Visit> void for_each_number(const Markers &markers, Visit visit)
+template <typename Visit> void for_each_number(const MarkerSet &markers, Visit visit)
 {
   for (int n = 0; n < markers.count; ++n)
     for (int d = 0; d < 3; ++d) visit(markers.index[n], 3 * std::size_t(markers.index[n]) + d);
@@ -18,7 +18,7 @@ template <std::size_t N> void sum_over_ranks(std::array<double, N> &values, cons
 }
 
 /// Largest component of a velocity, of the fluid or wanted of a marker.
-double fastest(const Flow &flow, const Markers &markers, const double *target)
+double fastest(const Flow &flow, const MarkerSet &markers, const double *target)
 {
   double speed = 0;
   for_each_number(markers,
@@ -33,9 +33,10 @@ double fastest(const Flow &flow, const Markers &markers, const double *target)
 
 }    // namespace
 
-DirectForcing::Outcome DirectForcing::advance(Flow &flow, double dt, const Problem &problem)
+DirectForcing::Outcome DirectForcing::advance(Flow &flow, double dt, const Forcing &forcing,
+                                              const Problem &problem)
 {
-  const Markers &markers = problem.markers;
+  const MarkerSet &markers = problem.markers;
   const bool massive = problem.resistance != nullptr;
   const auto weight = [&](int row) { return massive ? problem.resistance[row] : 1.0; };
   double *const inertial = problem.inertial, *const velocity = problem.velocity;
@@ -46,17 +47,17 @@ DirectForcing::Outcome DirectForcing::advance(Flow &flow, double dt, const Probl
   for_each_number(markers,
                   [&](int, std::size_t i) { total_[i] = problem.applied[i] + inertial[i]; });
   flow.clear_force();
-  outcome.outside = flow.spread(problem.kernel, markers, problem.position, total_.data(), 1.0);
+  outcome.outside = flow.spread(markers, total_.data(), 1.0);
   std::array<double, 1> lost{outcome.outside >= 0 ? 1.0 : 0.0};
   sum_over_ranks(lost, flow);
   if (lost[0] > 0) return outcome;
-  flow.gather_force();
-  if (flow.regime().inertia == Inertia::none)
-    flow.solve();
+  flow.accumulate_ghosts();
+  if (flow.equations().inertia == Inertia::none)
+    flow.solve(forcing);
   else
-    flow.start_step(dt);
-  flow.share_velocity();
-  flow.interpolate(problem.kernel, markers, problem.position, velocity);
+    flow.start_step(dt, forcing);
+  flow.fill_ghosts();
+  flow.interpolate(markers, velocity);
 
   for_each_number(markers, [&](int row, std::size_t i) {
     const double root = std::sqrt(weight(row));
@@ -91,7 +92,7 @@ DirectForcing::Outcome DirectForcing::advance(Flow &flow, double dt, const Probl
     for_each_number(markers, [&](int row, std::size_t i) {
       scaled_[i] = std::sqrt(weight(row)) * direction_[i];
     });
-    flow.respond(problem.kernel, markers, problem.position, scaled_.data(), response_.data());
+    flow.apply_mobility(markers, scaled_.data(), response_.data());
     ++outcome.solves;
     std::array<double, 1> curvature{};
     for_each_number(markers, [&](int, std::size_t i) {
@@ -100,7 +101,7 @@ DirectForcing::Outcome DirectForcing::advance(Flow &flow, double dt, const Probl
     });
     sum_over_ranks(curvature, flow);
     const double step = sums[0] / curvature[0];
-    flow.add_response(step);
+    flow.add_mobility_flow(step);
     for_each_number(markers, [&](int row, std::size_t i) {
       inertial[i] += step * scaled_[i];
       velocity[i] += step * response_[i];

@@ -20,9 +20,8 @@ class DirectForcing {
 
   /// Arrays have three numbers a row, `resistance` has one, for rows as the markers count.
   struct Problem {
-    KernelKind kernel;
-    Markers markers;
-    const double *position, *applied;
+    MarkerSet markers;
+    const double *applied;
     const double *resistance;    ///< or null
     const double *target;
     double *inertial;    ///< a guess that becomes the inertial force
@@ -39,10 +38,9 @@ class DirectForcing {
   };
 
   /// Takes the place of clear_force .. interpolate of Flow; dt counts with inertia only.
-  Outcome advance(Flow &flow, double dt, const Problem &problem);
+  Outcome advance(Flow &flow, double dt, const Forcing &forcing, const Problem &problem);
 
-  /// Memory kept from call to call, in numbers.
-  std::size_t numbers() const { return 5 * total_.capacity(); }
+  std::size_t bytes() const { return 5 * total_.capacity() * sizeof(double); }
 
  private:
   std::vector<double> total_, residual_, direction_, scaled_, response_;

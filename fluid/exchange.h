@@ -46,7 +46,7 @@ template <typename T> class Exchange {
 
   /// The transpose of copy: adds what stands in the receiving boxes of `from` to the sending boxes of `to`.
   template <std::size_t N>
-  void add_back(const std::array<View<T>, N> &from, const std::array<View<T>, N> &to)
+  void accumulate(const std::array<View<T>, N> &from, const std::array<View<T>, N> &to)
   {
     run(from.data(), to.data(), N, receives_, sends_, true);
   }

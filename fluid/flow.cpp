@@ -22,16 +22,16 @@ void add(const Box &brick, const VectorField &y, double factor, const VectorFiel
 }    // namespace
 
 Flow::Flow(const Grid &grid, const Decomposition &decomposition, int ghost_layers,
-           const Regime &regime) :
+           const FlowEquations &equations) :
     grid_(grid),
-    decomposition_(decomposition), regime_(regime),
+    decomposition_(decomposition), equations_(equations),
     halo_(grid, decomposition, std::max(ghost_layers, 1)), has_force_(ghost_layers > 0),
     velocity_(halo_.box()),
-    solver_(grid, decomposition, regime.viscosity, 0.0, regime.hold_mean, regime.scheme)
+    solver_(grid, decomposition, equations.viscosity, 0.0, equations.hold_mean, equations.scheme)
 {
   if (has_force_) force_ = VectorField(halo_.box());
-  if (regime.inertia != Inertia::none) previous_ = VectorField(halo_.box());
-  if (regime.inertia == Inertia::convective) rhs_ = VectorField(brick());
+  if (equations.inertia != Inertia::none) previous_ = VectorField(halo_.box());
+  if (equations.inertia == Inertia::convective) rhs_ = VectorField(brick());
 }
 
 void Flow::clear_force()
@@ -40,33 +40,32 @@ void Flow::clear_force()
   lower_direct_ = upper_direct_ = {0, 0, 0};
 }
 
-int Flow::spread(KernelKind kernel, const Markers &markers, const double *position,
-                 const double *force, double factor, As as)
+int Flow::spread(const MarkerSet &markers, const double *force, double factor)
 {
-  return fluid::spread(kernel, grid_, markers, position, force, factor, force_, reach(as));
+  return fluid::spread(grid_, markers, force, factor, force_, reach(markers.kind));
 }
 
 /// Where kernels find velocities: of sheets where these have neighbors on all sides, and beyond plates.
-Box Flow::reach(As as) const
+Box Flow::reach(MarkerKind kind) const
 {
   Box box = halo_.box();
-  if (as == As::points || box.empty()) return box;
+  if (kind == MarkerKind::points || box.empty()) return box;
   for (int d = 0; d < 3; ++d) {
-    const bool plates = d == 2 && grid_.walls;
+    const bool plates = d == 2 && grid_.plates;
     if (!plates || box.lo[d] >= 0) ++box.lo[d];
     if (!plates || box.hi[d] <= grid_.cells[d]) --box.hi[d];
   }
   return box;
 }
 
-/// u - sharpening h_d^2 d2u/dx_d2, summed over the directions d.
-const VectorField &Flow::sharpened(KernelKind kernel, const VectorField &velocity,
-                                   const Walls &walls)
+/// u - kink_correction h_d^2 d2u/dx_d2, summed over the directions d.
+const VectorField &Flow::kink_corrected(KernelKind kernel, const VectorField &velocity,
+                                        const PlateVelocities &plates)
 {
   if (!sharp_.bytes()) sharp_ = VectorField(halo_.box());
-  const double share = sharpening(kernel);
-  Box box = reach(As::sheets);
-  if (grid_.walls && !box.empty()) {
+  const double share = kink_correction(kernel);
+  Box box = reach(MarkerKind::sheets);
+  if (grid_.plates && !box.empty()) {
     box.lo[2] = std::max(box.lo[2], 0);
     box.hi[2] = std::min(box.hi[2], grid_.cells[2]);
   }
@@ -80,33 +79,33 @@ const VectorField &Flow::sharpened(KernelKind kernel, const VectorField &velocit
         result[i] = (1 + 6 * share) * u[i] - share * (u[i - 1] + u[i + 1] + u[i - row] +
                                                       u[i + row] + u[i - plane] + u[i + plane]);
     });
-  if (grid_.walls) reflect_velocity(grid_, walls, sharp_);
+  if (grid_.plates) reflect_velocity(grid_, plates, sharp_);
   return sharp_;
 }
 
-void Flow::gather_force()
+void Flow::accumulate_ghosts()
 {
-  if (grid_.walls) fold_force(grid_, force_, lower_direct_, upper_direct_);
-  halo_.add_back(force_.views());
+  if (grid_.plates) fold_force(grid_, force_, lower_direct_, upper_direct_);
+  halo_.accumulate(force_.views());
 }
 
-void Flow::solve()
+void Flow::solve(const Forcing &forcing)
 {
   if (!has_force()) velocity_.clear();
-  solve_now(has_force() ? force_ : velocity_);
-  walls_ = drive.walls;
+  solve_now(has_force() ? force_ : velocity_, forcing);
+  plates_ = forcing.plates;
   shared_ = false;
 }
 
-void Flow::solve_now(const VectorField &rhs)
+void Flow::solve_now(const VectorField &rhs, const Forcing &forcing)
 {
-  solved_drive_ = drive;
-  solve_for(velocity_, rhs, drive);
+  solved_forcing_ = forcing;
+  solve_for(velocity_, rhs, forcing);
 }
 
-void Flow::solve_for(const VectorField &velocity, const VectorField &rhs, const Drive &by)
+void Flow::solve_for(const VectorField &velocity, const VectorField &rhs, const Forcing &forcing)
 {
-  solver_.velocity(rhs, by, velocity);
+  solver_.velocity(rhs, forcing, velocity);
   ++solves_;
 }
 
@@ -132,37 +131,37 @@ void Flow::assemble(const VectorField &velocity, const VectorField &result) cons
     });
 }
 
-void Flow::start_step(double dt)
+void Flow::start_step(double dt, const Forcing &forcing)
 {
-  assert(regime_.inertia != Inertia::none);
+  assert(equations_.inertia != Inertia::none);
   const double before = dt_;
   dt_ = dt;
-  set_shift(2 * regime_.density / dt);
+  set_shift(2 * equations_.density / dt);
 
-  if (regime_.inertia == Inertia::convective) {
-    share_velocity();
+  if (equations_.inertia == Inertia::convective) {
+    fill_ghosts();
     assemble(velocity_, rhs_);
     const double extrapolation = steps_ > 0 ? 0.5 * dt / before : 0;
-    add_advection(grid_, brick(), velocity_, -regime_.density * (1 + extrapolation), rhs_);
+    add_advection(grid_, brick(), velocity_, -equations_.density * (1 + extrapolation), rhs_);
     if (extrapolation > 0)
-      add_advection(grid_, brick(), previous_, regime_.density * extrapolation, rhs_);
+      add_advection(grid_, brick(), previous_, equations_.density * extrapolation, rhs_);
     std::swap(velocity_, previous_);
-    solve_now(rhs_);
+    solve_now(rhs_, forcing);
   } else {
     std::swap(velocity_, previous_);
     assemble(previous_, velocity_);
-    solve_now(velocity_);
+    solve_now(velocity_, forcing);
   }
-  previous_walls_ = walls_;
+  previous_plates_ = plates_;
   previous_shared_ = shared_;
-  walls_ = drive.walls;
+  plates_ = forcing.plates;
   shared_ = false;
   stepped_ = true;
 }
 
-void Flow::finish_step()
+void Flow::finish_step(const Forcing &forcing)
 {
-  walls_ = drive.walls;
+  plates_ = forcing.plates;
   if (!damped()) {
     shared_ = shared_ && previous_shared_;
     const Box &box = shared_ ? velocity_.box() : brick();
@@ -172,39 +171,39 @@ void Flow::finish_step()
         const double *const start_row = &start(box.lo[0], j, k);
         for (int i = 0; i < box.extent(0); ++i) row[i] = 2 * row[i] - start_row[i];
       });
-    if (grid_.walls && shared_) reflect_velocity(grid_, walls_, velocity_);
-  } else if (regime_.inertia == Inertia::convective) {
+    if (grid_.plates && shared_) reflect_velocity(grid_, plates_, velocity_);
+  } else if (equations_.inertia == Inertia::convective) {
     for (int c = 0; c < 3; ++c)
       for_each_row(brick(), [&, u = velocity_[c], start = previous_[c], r = rhs_[c]](int j, int k) {
         for (int i = brick().lo[0]; i < brick().hi[0]; ++i)
           r(i, j, k) += shift_ * (u(i, j, k) - start(i, j, k));
       });
-    solve_now(rhs_);
+    solve_now(rhs_, forcing);
     shared_ = false;
   } else {
     std::swap(velocity_, previous_);
     assemble(previous_, velocity_);
-    solve_now(velocity_);
+    solve_now(velocity_, forcing);
     shared_ = false;
   }
   ++steps_;
 }
 
-void Flow::share_velocity()
+void Flow::fill_ghosts()
 {
-  if (!shared_) fill_ghosts(velocity_, walls_);
+  if (!shared_) fill_ghosts_of(velocity_, plates_);
   shared_ = true;
 }
 
-void Flow::fill_ghosts(const VectorField &velocity, const Walls &walls)
+void Flow::fill_ghosts_of(const VectorField &velocity, const PlateVelocities &plates)
 {
   halo_.fill(velocity.views());
-  if (grid_.walls) reflect_velocity(grid_, walls, velocity);
+  if (grid_.plates) reflect_velocity(grid_, plates, velocity);
 }
 
-Vec3 Flow::mean_force() const
+Real3 Flow::mean_force() const
 {
-  Vec3 mean{0, 0, 0};
+  Real3 mean{0, 0, 0};
   if (has_force_) {
     const auto f = force_.views();
     for_each_cell(brick(), [&](int i, int j, int k) {
@@ -215,54 +214,58 @@ Vec3 Flow::mean_force() const
   return mean;
 }
 
-void Flow::share_force()
+void Flow::fill_force_ghosts()
 {
   halo_.fill(force_.views());
 }
 
-void Flow::interpolate(KernelKind kernel, const Markers &markers, const double *position,
-                       double *velocity, As as)
+/// The velocity field that kernels of such markers interpolate.
+const VectorField &Flow::seen_by(const MarkerSet &markers, const VectorField &velocity,
+                                 const PlateVelocities &plates)
 {
-  assert(shared_);
-  const VectorField &field = as == As::sheets ? sharpened(kernel, velocity_, walls_) : velocity_;
-  fluid::interpolate(kernel, grid_, markers, position, field, velocity);
+  if (markers.kind == MarkerKind::points) return velocity;
+  return kink_corrected(markers.kernel, velocity, plates);
 }
 
-void Flow::respond(KernelKind kernel, const Markers &markers, const double *position,
-                   const double *force, double *velocity, As as)
+void Flow::interpolate(const MarkerSet &markers, double *velocity)
 {
-  if (!response_.bytes()) {
-    response_force_ = VectorField(halo_.box());
-    response_ = VectorField(halo_.box());
+  fill_ghosts();
+  fluid::interpolate(grid_, markers, seen_by(markers, velocity_, plates_), velocity);
+}
+
+int Flow::apply_mobility(const MarkerSet &markers, const double *force, double *velocity)
+{
+  if (!mobility_flow_.bytes()) {
+    mobility_force_ = VectorField(halo_.box());
+    mobility_flow_ = VectorField(halo_.box());
   }
-  response_force_.clear();
+  mobility_force_.clear();
   const int outside =
-      fluid::spread(kernel, grid_, markers, position, force, 1.0, response_force_, reach(as));
-  assert(outside < 0);
-  (void)outside;
-  response_lower_ = response_upper_ = {0, 0, 0};
-  if (grid_.walls) fold_force(grid_, response_force_, response_lower_, response_upper_);
-  halo_.add_back(response_force_.views());
-  solve_for(response_, response_force_, {});
-  fill_ghosts(response_, {});
-  const VectorField &field = as == As::sheets ? sharpened(kernel, response_, {}) : response_;
-  fluid::interpolate(kernel, grid_, markers, position, field, velocity);
+      fluid::spread(grid_, markers, force, 1.0, mobility_force_, reach(markers.kind));
+  mobility_lower_ = mobility_upper_ = {0, 0, 0};
+  if (grid_.plates) fold_force(grid_, mobility_force_, mobility_lower_, mobility_upper_);
+  halo_.accumulate(mobility_force_.views());
+  solve_for(mobility_flow_, mobility_force_, {});
+  fill_ghosts_of(mobility_flow_, {});
+  if (outside < 0)
+    fluid::interpolate(grid_, markers, seen_by(markers, mobility_flow_, {}), velocity);
+  return outside;
 }
 
-void Flow::add_response(double factor)
+void Flow::add_mobility_flow(double factor)
 {
-  add(brick(), force_, factor, response_force_);
-  if (regime_.inertia == Inertia::convective) add(brick(), rhs_, factor, response_force_);
-  add(brick(), velocity_, factor, response_);
+  add(brick(), force_, factor, mobility_force_);
+  if (equations_.inertia == Inertia::convective) add(brick(), rhs_, factor, mobility_force_);
+  add(brick(), velocity_, factor, mobility_flow_);
   for (int c = 0; c < 3; ++c) {
-    lower_direct_[c] += factor * response_lower_[c];
-    upper_direct_[c] += factor * response_upper_[c];
+    lower_direct_[c] += factor * mobility_lower_[c];
+    upper_direct_[c] += factor * mobility_upper_[c];
   }
 }
 
-void Flow::add_mean(const Vec3 &velocity)
+void Flow::add_mean(const Real3 &velocity)
 {
-  assert(!grid_.walls && regime_.inertia == Inertia::none);
+  assert(!grid_.plates && equations_.inertia == Inertia::none);
   for (int c = 0; c < 3; ++c) {
     double *const u = velocity_[c].data;
     const std::size_t n = velocity_.box().size();
@@ -273,13 +276,13 @@ void Flow::add_mean(const Vec3 &velocity)
 const ScalarField &Flow::pressure()
 {
   if (!pressure_.bytes()) pressure_ = ScalarField(halo_.box());
-  const bool steady = regime_.inertia == Inertia::none;
+  const bool steady = equations_.inertia == Inertia::none;
   if (!steady && !stepped_) return pressure_;
   const bool kept = solver_.kept_modes() != nullptr;    // by a projection: nothing is left to solve
   const bool forces_only = steady && has_force_;
   if (!kept && !forces_only && !rhs_.bytes()) rhs_ = VectorField(brick());
-  if (!kept && regime_.inertia == Inertia::unsteady) assemble(previous_, rhs_);
-  solver_.pressure(forces_only ? force_ : rhs_, solved_drive_, pressure_);
+  if (!kept && equations_.inertia == Inertia::unsteady) assemble(previous_, rhs_);
+  solver_.pressure(forces_only ? force_ : rhs_, solved_forcing_, pressure_);
   return pressure_;
 }
 
@@ -293,7 +296,7 @@ std::size_t Flow::bytes() const
 {
   std::size_t sum = pressure_.bytes() + halo_.bytes() + solver_.bytes();
   for (const VectorField *field :
-       {&force_, &velocity_, &previous_, &rhs_, &response_force_, &response_, &sharp_})
+       {&force_, &velocity_, &previous_, &rhs_, &mobility_force_, &mobility_flow_, &sharp_})
     sum += field->bytes();
   return sum;
 }

@@ -7,7 +7,7 @@ namespace fluid {
 
 namespace {
 
-constexpr std::size_t head = 14;    // steps, dt, walls, previous walls
+constexpr std::size_t head = 14;    // steps, dt, velocities of the plates now and before
 
 Box all_modes(const Grid &grid)
 {
@@ -20,8 +20,8 @@ Box all_modes(const Grid &grid)
 
 std::size_t Flow::history_length() const
 {
-  if (regime_.inertia == Inertia::none) return 0;
-  const std::size_t fields = regime_.inertia == Inertia::convective ? 2 : 1;
+  if (equations_.inertia == Inertia::none) return 0;
+  const std::size_t fields = equations_.inertia == Inertia::convective ? 2 : 1;
   return head + fields * 3 * grid_.size() +
          (solver_.kept_modes() ? 2 * all_modes(grid_).size() : 0);
 }
@@ -29,7 +29,7 @@ std::size_t Flow::history_length() const
 std::vector<double> Flow::history()
 {
   std::vector<double> all;
-  if (regime_.inertia == Inertia::none) return all;
+  if (equations_.inertia == Inertia::none) return all;
   const auto append = [&](const auto &whole) {
     const auto *const first = reinterpret_cast<const double *>(whole[0].data);
     all.insert(all.end(), first, first + whole.bytes() / sizeof(double));
@@ -38,12 +38,12 @@ std::vector<double> Flow::history()
   if (decomposition_.rank == 0) {
     all.reserve(history_length());
     all.assign({static_cast<double>(steps_), dt_});
-    for (const Vec3 &wall :
-         {walls_.lower, walls_.upper, previous_walls_.lower, previous_walls_.upper})
+    for (const Real3 &wall :
+         {plates_.lower, plates_.upper, previous_plates_.lower, previous_plates_.upper})
       all.insert(all.end(), wall.begin(), wall.end());
   }
   append(gather(comm, decomposition_.bricks, grid_.domain(), velocity_));
-  if (regime_.inertia == Inertia::convective)
+  if (equations_.inertia == Inertia::convective)
     append(gather(comm, decomposition_.bricks, grid_.domain(), previous_));
   if (const auto *kept = solver_.kept_modes())
     append(gather(comm, solver_.mode_bricks(), all_modes(grid_), *kept));
@@ -55,17 +55,18 @@ void Flow::restore(const double *history)
   steps_ = static_cast<int>(history[0]);
   dt_ = history[1];
   const double *wall = history + 2;
-  for (Vec3 *to : {&walls_.lower, &walls_.upper, &previous_walls_.lower, &previous_walls_.upper}) {
+  for (Real3 *to :
+       {&plates_.lower, &plates_.upper, &previous_plates_.lower, &previous_plates_.upper}) {
     std::copy_n(wall, 3, to->begin());
     wall += 3;
   }
   const double *next = history + head;
   cut_out(brick(), grid_.domain(), next, velocity_);
   next += 3 * grid_.size();
-  if (regime_.inertia == Inertia::convective) {
+  if (equations_.inertia == Inertia::convective) {
     cut_out(brick(), grid_.domain(), next, previous_);
     next += 3 * grid_.size();
-    fill_ghosts(previous_, previous_walls_);
+    fill_ghosts_of(previous_, previous_plates_);
   }
   if (const auto *kept = solver_.kept_modes())
     cut_out(kept->box(), all_modes(grid_), reinterpret_cast<const Complex *>(next), *kept);
@@ -75,10 +76,9 @@ void Flow::restore(const double *history)
 
 void Flow::take_over(Flow &old)
 {
-  drive = old.drive;
-  solved_drive_ = old.solved_drive_;
-  walls_ = old.walls_;
-  previous_walls_ = old.previous_walls_;
+  solved_forcing_ = old.solved_forcing_;
+  plates_ = old.plates_;
+  previous_plates_ = old.previous_plates_;
   if (has_force_) {
     lower_direct_ = old.lower_direct_;
     upper_direct_ = old.upper_direct_;
@@ -86,7 +86,7 @@ void Flow::take_over(Flow &old)
   steps_ = old.steps_;
   solves_ = old.solves_;
   dt_ = old.dt_;
-  if (regime_.inertia != Inertia::none) set_shift(old.shift_);
+  if (equations_.inertia != Inertia::none) set_shift(old.shift_);
   stepped_ = old.stepped_;
   shared_ = false;
   const auto move_field = [&](const VectorField &from, const VectorField &to) {
@@ -95,9 +95,9 @@ void Flow::take_over(Flow &old)
   };
   move_field(old.velocity_, velocity_);
   if (old.has_force_ && has_force_) move_field(old.force_, force_);
-  if (regime_.inertia != Inertia::none) move_field(old.previous_, previous_);
-  if (regime_.inertia == Inertia::convective) move_field(old.rhs_, rhs_);
-  if (regime_.inertia == Inertia::convective) fill_ghosts(previous_, previous_walls_);
+  if (equations_.inertia != Inertia::none) move_field(old.previous_, previous_);
+  if (equations_.inertia == Inertia::convective) move_field(old.rhs_, rhs_);
+  if (equations_.inertia == Inertia::convective) fill_ghosts_of(previous_, previous_plates_);
   if (const auto *kept = solver_.kept_modes())
     move(decomposition_.comm, old.solver_.mode_bricks(), old.solver_.kept_modes()->views(),
          solver_.mode_bricks(), kept->views());

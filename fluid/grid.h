@@ -11,9 +11,9 @@ namespace fluid {
 /// cell. Periodic in x and y; in z either periodic or closed by two plates.
 struct Grid {
   Index3 cells;
-  Vec3 origin;
-  Vec3 spacing;
-  bool walls = false;
+  Real3 origin;
+  Real3 spacing;
+  bool plates = false;
 
   Box domain() const { return {{0, 0, 0}, cells}; }
   double cell_volume() const { return spacing[0] * spacing[1] * spacing[2]; }

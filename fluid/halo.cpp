@@ -12,7 +12,7 @@ Box with_ghosts(const Grid &grid, const Box &brick, int width)
     box.lo[d] -= width;
     box.hi[d] += width;
   }
-  if (grid.walls) {
+  if (grid.plates) {
     box.lo[2] = std::max(box.lo[2], -Halo::wall_layers);
     box.hi[2] = std::min(box.hi[2], grid.cells[2] + Halo::wall_layers + 1);
   }
@@ -27,7 +27,7 @@ void for_each_image(const Grid &grid, const Box &owner, const Box &ghosted, bool
 {
   Index3 most{};
   for (int d = 0; d < 3; ++d) {
-    if (d == 2 && grid.walls) continue;
+    if (d == 2 && grid.plates) continue;
     const int reach = std::max(-ghosted.lo[d], ghosted.hi[d] - grid.cells[d]);
     most[d] = std::max(0, (reach + grid.cells[d] - 1) / grid.cells[d]);
   }

@@ -25,9 +25,9 @@ class Halo {
   }
 
   /// The transpose of fill: what stands in the ghost cells is added to their owners.
-  template <std::size_t N> void add_back(const std::array<View<double>, N> &fields)
+  template <std::size_t N> void accumulate(const std::array<View<double>, N> &fields)
   {
-    exchange_.add_back(fields, fields);
+    exchange_.accumulate(fields, fields);
   }
 
   const Traffic &traffic() const { return exchange_.traffic(); }

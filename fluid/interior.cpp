@@ -9,15 +9,15 @@ constexpr int samples = 4;    // of a cell, in each direction
 }    // namespace
 
 Interior::Interior(const Grid &grid, const Decomposition &decomposition,
-                   const std::function<bool(const Vec3 &)> &holds)
+                   const std::function<bool(const Real3 &)> &contains)
 {
   const Box &brick = decomposition.mine();
   Box nodes = brick;
   if (!brick.empty())
     for (int d = 0; d < 3; ++d) ++nodes.hi[d];
   const auto inside = [&](double i, double j, double k) {
-    return holds({grid.origin[0] + i * grid.spacing[0], grid.origin[1] + j * grid.spacing[1],
-                  grid.origin[2] + k * grid.spacing[2]});
+    return contains({grid.origin[0] + i * grid.spacing[0], grid.origin[1] + j * grid.spacing[1],
+                     grid.origin[2] + k * grid.spacing[2]});
   };
   std::vector<char> at_node;
   at_node.reserve(nodes.size());
@@ -43,7 +43,7 @@ Interior::Interior(const Grid &grid, const Decomposition &decomposition,
   volume_ = sum * grid.cell_volume();
 }
 
-void Interior::add_force(const Flow &flow, const Vec3 &density) const
+void Interior::add_force(const Flow &flow, const Real3 &density) const
 {
   const auto f = flow.force().views();
   std::size_t cell = 0;
@@ -56,11 +56,11 @@ void Interior::add_force(const Flow &flow, const Vec3 &density) const
   });
 }
 
-Vec3 Interior::mean_velocity(Flow &flow) const
+Real3 Interior::mean_velocity(Flow &flow) const
 {
-  flow.share_velocity();
+  flow.fill_ghosts();
   const auto u = flow.velocity().views();
-  Vec3 mean{0, 0, 0};
+  Real3 mean{0, 0, 0};
   std::size_t cell = 0;
   for_each_cell(flow.brick(), [&](int i, int j, int k) {
     const double weight = 0.5 * share_[cell++];

@@ -12,15 +12,15 @@ class Interior {
  public:
   /// Collective. Cells with corners on both sides are sampled.
   Interior(const Grid &grid, const Decomposition &decomposition,
-           const std::function<bool(const Vec3 &)> &holds);
+           const std::function<bool(const Real3 &)> &contains);
 
   double volume() const { return volume_; }
 
-  /// Before gather_force: half the force of a cell on each of two faces.
-  void add_force(const Flow &flow, const Vec3 &density) const;
+  /// Before accumulate_ghosts: half the force of a cell on each of two faces.
+  void add_force(const Flow &flow, const Real3 &density) const;
 
   /// Collective; fills the ghosts of the velocity where they are not.
-  Vec3 mean_velocity(Flow &flow) const;
+  Real3 mean_velocity(Flow &flow) const;
 
  private:
   std::vector<float> share_;    ///< of this rank's cells

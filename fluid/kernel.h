@@ -12,7 +12,7 @@ namespace fluid {
 // the spacing further into the fluid. For a plane in a shear flow on one side of it that part is half the mean distance
 // of two points, both spread by the kernel of the same marker; `surface_offset` is its mean over the marker's places.
 //
-// `sharpening` removes this error for surfaces with fluid on both sides, see there. For a plane across an axis it would be
+// `kink_correction` removes this error for surfaces with fluid on both sides, see there. For a plane across an axis it would be
 // surface_offset over the sum of the squared weights, 3/8 and 1/2, which is the same at every place; it is what does so for
 // a sphere that turns, in the mean over all directions of the normal.
 
@@ -20,7 +20,7 @@ namespace fluid {
 struct Peskin4 {
   static constexpr int width = 4;
   static constexpr double surface_offset = 0.3810;
-  static constexpr double sharpening = 1.028;
+  static constexpr double kink_correction = 1.028;
 
   static int weights(double s, double *w)
   {
@@ -38,7 +38,7 @@ struct Peskin4 {
 struct Roma3 {
   static constexpr int width = 3;
   static constexpr double surface_offset = 0.2662;
-  static constexpr double sharpening = 0.560;
+  static constexpr double kink_correction = 0.560;
 
   static int weights(double s, double *w)
   {

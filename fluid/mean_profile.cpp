@@ -8,16 +8,17 @@ MeanProfile::MeanProfile(const Grid &grid, double viscosity) :
   velocity_.fill(std::vector<double>(grid.cells[2]));
 }
 
-void MeanProfile::solve(const std::array<View<Complex>, 3> &force, double shift, const Drive &drive)
+void MeanProfile::solve(const std::array<View<Complex>, 3> &force, double shift,
+                        const Forcing &forcing)
 {
   const int n = grid_.cells[2];
   const double h = grid_.spacing[2], b = viscosity_ / (h * h);
   const double scale = 1.0 / (double(grid_.cells[0]) * grid_.cells[1]);
   for (int c = 0; c < 2; ++c) {
     std::vector<double> &u = velocity_[c];
-    for (int k = 0; k < n; ++k) u[k] = force[c](0, 0, k).real() * scale + drive.body[c];
-    u[0] += 2 * b * drive.walls.lower[c];
-    u[n - 1] += 2 * b * drive.walls.upper[c];
+    for (int k = 0; k < n; ++k) u[k] = force[c](0, 0, k).real() * scale + forcing.body[c];
+    u[0] += 2 * b * forcing.plates.lower[c];
+    u[n - 1] += 2 * b * forcing.plates.upper[c];
     for (int k = 0; k < n; ++k) {
       const double before = k > 0 ? ratio_[k - 1] : 0;
       const double pivot = shift + b * (2 + (k == 0) + (k == n - 1)) - b * before;
@@ -29,7 +30,7 @@ void MeanProfile::solve(const std::array<View<Complex>, 3> &force, double shift,
 
   double mean = 0;
   for (int k = 1; k < n; ++k) {
-    const double gradient = force[2](0, 0, k).real() * scale + drive.body[2];
+    const double gradient = force[2](0, 0, k).real() * scale + forcing.body[2];
     pressure_[k] = pressure_[k - 1] + h * gradient;
     mean += pressure_[k] / n;
   }

@@ -11,7 +11,7 @@ class MeanProfile {
   MeanProfile(const Grid &grid, double viscosity);
 
   /// Solves (shift - viscosity d^2/dz^2) u = f; reads the mean modes of the force density.
-  void solve(const std::array<View<Complex>, 3> &force, double shift, const Drive &drive);
+  void solve(const std::array<View<Complex>, 3> &force, double shift, const Forcing &forcing);
 
   /// Writes the mean modes of the velocity, and of the pressure if given (its mean is zero).
   void store(const std::array<View<Complex>, 3> &velocity, const View<Complex> *pressure) const;

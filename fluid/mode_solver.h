@@ -1,23 +1,11 @@
 #pragma once
 
+#include "fluid/forcing.h"
 #include "fluid/fourier.h"
 
 #include <memory>
 
 namespace fluid {
-
-/// Velocity of the two plates, along themselves.
-struct Walls {
-  Vec3 lower{0, 0, 0};
-  Vec3 upper{0, 0, 0};
-};
-
-/// What drives the mean flow.
-struct Drive {
-  Walls walls;
-  Vec3 body{0, 0, 0};    ///< uniform force density
-  Vec3 mean{0, 0, 0};    ///< mean velocity, where it is held
-};
 
 /// Solves the discrete problem (shift - viscosity lap) u + grad p = f, div u = 0 on the staggered grid,
 /// mode by mode in x and y.
@@ -27,7 +15,7 @@ class ModeSolver {
 
   /// Replaces the modes of the force density in `spectrum` by those of the velocity, normalised for the
   /// unnormalised backward transform. Where `pressure` is given its modes are written too.
-  virtual void solve(const std::array<View<Complex>, 3> &spectrum, const Drive &drive,
+  virtual void solve(const std::array<View<Complex>, 3> &spectrum, const Forcing &forcing,
                      const View<Complex> *pressure) = 0;
 
   virtual void set_shift(double shift) = 0;
@@ -36,7 +24,7 @@ class ModeSolver {
   virtual const Components<Complex, 1> *kept_pressure() const { return nullptr; }
 };
 
-/// Triply periodic. Where the mean velocity is held it is that of the drive, and a uniform pressure gradient
+/// Triply periodic. Where the mean velocity is held it is that of the forcing, and a uniform pressure gradient
 /// balances the mean force; otherwise the mean obeys shift <u> = <f> + body.
 std::unique_ptr<ModeSolver> make_periodic_modes(const Grid &grid, const Box &modes,
                                                 double viscosity, double shift, bool hold_mean);

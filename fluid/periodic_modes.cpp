@@ -38,7 +38,7 @@ class PeriodicModes : public ModeSolver {
 
   void set_shift(double shift) override { shift_ = shift; }
 
-  void solve(const std::array<View<Complex>, 3> &spectrum, const Drive &drive,
+  void solve(const std::array<View<Complex>, 3> &spectrum, const Forcing &forcing,
              const View<Complex> *pressure) override
   {
     const int columns = modes_.empty() ? 0 : modes_.extent(0) * modes_.extent(1);
@@ -49,7 +49,7 @@ class PeriodicModes : public ModeSolver {
         transform(forward_, block_[c]);
       }
       for (int group = 0; group < groups; ++group) project(first, count, group);
-      if (first == 0 && modes_.contains({0, 0, 0})) drive_mean(drive);
+      if (first == 0 && modes_.contains({0, 0, 0})) set_mean(forcing);
       for (int c = 0; c < 3; ++c) {
         transform(backward_, block_[c]);
         store(block_[c], first, count, spectrum[c]);
@@ -116,14 +116,14 @@ class PeriodicModes : public ModeSolver {
     }
   }
 
-  void drive_mean(const Drive &drive) const
+  void set_mean(const Forcing &forcing) const
   {
     for (int c = 0; c < 3; ++c) {
       Complex &mean = *block_[c].data();
       if (hold_mean_)
-        mean = drive.mean[c];
+        mean = forcing.mean[c];
       else if (shift_ > 0)
-        mean += drive.body[c] / shift_;
+        mean += forcing.body[c] / shift_;
     }
   }
 

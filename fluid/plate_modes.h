@@ -17,11 +17,11 @@ class PlateModes : public ModeSolver {
 
   void set_shift(double shift) override { shift_ = shift; }
 
-  void solve(const std::array<View<Complex>, 3> &spectrum, const Drive &drive,
+  void solve(const std::array<View<Complex>, 3> &spectrum, const Forcing &forcing,
              const View<Complex> *pressure) override
   {
     const bool mean = modes_.contains({0, 0, 0});
-    if (mean) mean_.solve(spectrum, shift_, drive);
+    if (mean) mean_.solve(spectrum, shift_, forcing);
     const int columns = modes_.empty() ? 0 : modes_.extent(0) * modes_.extent(1);
     for (int first = 0; first < columns; first += lanes)
       solve_block(spectrum, pressure, first, std::min(lanes, columns - first));

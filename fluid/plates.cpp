@@ -39,12 +39,12 @@ bool reaches(const Grid &grid, const Box &box, bool upper)
 
 }    // namespace
 
-void reflect_velocity(const Grid &grid, const Walls &walls, const VectorField &velocity)
+void reflect_velocity(const Grid &grid, const PlateVelocities &plates, const VectorField &velocity)
 {
   const Box &box = velocity.box();
   for (bool upper : {false, true}) {
     if (!reaches(grid, box, upper)) continue;
-    const Vec3 &wall = upper ? walls.upper : walls.lower;
+    const Real3 &wall = upper ? plates.upper : plates.lower;
     for (int c = 0; c < 3; ++c) {
       const View<double> u = velocity[c];
       if (c == 2) {
@@ -62,12 +62,12 @@ void reflect_velocity(const Grid &grid, const Walls &walls, const VectorField &v
   }
 }
 
-void fold_force(const Grid &grid, const VectorField &force, Vec3 &lower, Vec3 &upper_sum)
+void fold_force(const Grid &grid, const VectorField &force, Real3 &lower, Real3 &upper_sum)
 {
   const Box &box = force.box();
   for (bool upper : {false, true}) {
     if (!reaches(grid, box, upper)) continue;
-    Vec3 &sum = upper ? upper_sum : lower;
+    Real3 &sum = upper ? upper_sum : lower;
     for (int c = 0; c < 3; ++c) {
       const View<double> f = force[c];
       if (c == 2) {

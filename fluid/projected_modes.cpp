@@ -20,11 +20,11 @@ class ProjectedModes : public PlateModes {
 
   const Components<Complex, 1> *kept_pressure() const override { return &kept_; }
 
-  void solve(const std::array<View<Complex>, 3> &spectrum, const Drive &drive,
+  void solve(const std::array<View<Complex>, 3> &spectrum, const Forcing &forcing,
              const View<Complex> *) override
   {
     const View<Complex> kept = kept_[0];
-    PlateModes::solve(spectrum, drive, &kept);
+    PlateModes::solve(spectrum, forcing, &kept);
   }
 
  private:

@@ -68,28 +68,28 @@ double largest_row(const Eigen::VectorXd &vector)
 void RigidSurface::set_markers(const Flow &flow, KernelKind kernel, int count,
                                const double *position, const int *body)
 {
-  kernel_ = kernel;
   index_.resize(count);
   std::iota(index_.begin(), index_.end(), 0);
-  markers_ = {count, index_.data()};
   const std::ptrdiff_t numbers = 3 * std::ptrdiff_t(count);
   for (Vector *vector : {&target_, &force_, &earlier_}) vector->setZero(numbers);
-  for (Vector *vector : {&residual_, &step_, &response_, &direction_, &change_, &yield_, &yielded_})
+  for (Vector *vector :
+       {&residual_, &step_, &response_, &direction_, &change_, &compliance_step_, &compliance_})
     vector->resize(numbers);
   position_ = Eigen::Map<const Vector>(position, numbers);
-  times.known = 0;
-  directions_.resize(numbers, most_directions);
-  responses_.resize(numbers, most_directions);
-  use_.setZero(most_directions);
-  shares_.setZero(most_directions);
+  markers_ = {kernel, MarkerKind::points, count, index_.data(), position_.data()};
+  times_.known = 0;
+  directions_.resize(numbers, settings_.most_directions);
+  responses_.resize(numbers, settings_.most_directions);
+  use_.setZero(settings_.most_directions);
+  shares_.setZero(settings_.most_directions);
   forget();
 
-  resistance_.build(flow, kernel, count, position, body);
-  if (!free_mean) return;
+  preconditioner_.build(flow, kernel, count, position, body);
+  if (!settings_.free_mean) return;
   uniform_.resize(numbers, 3);
   for (int d = 0; d < 3; ++d) {
     rows(change_).colwise() = Eigen::Vector3d::Unit(d);
-    resistance_.apply(change_.data(), direction_.data());
+    preconditioner_.apply(change_.data(), direction_.data());
     uniform_.col(d) = direction_;
     drag_.col(d) = rows(direction_).rowwise().sum();
   }
@@ -103,29 +103,28 @@ void RigidSurface::move(const double *position)
   forget();
 }
 
-int RigidSurface::spread(Flow &flow, double time, const Vec3 &others)
+int RigidSurface::spread(Flow &flow, double time, const Real3 &others)
 {
   double ahead = 0;
-  if (times.known == 2 && times.last != times.earlier)
-    ahead = (time - times.last) / (times.last - times.earlier);
+  if (times_.known == 2 && times_.last != times_.earlier)
+    ahead = (time - times_.last) / (times_.last - times_.earlier);
   if (!(std::abs(ahead) <= farthest)) ahead = 0;
   change_ = force_ + ahead * (force_ - earlier_);
-  if (times.known == 0 || time != times.last) {
+  if (times_.known == 0 || time != times_.last) {
     earlier_.swap(force_);
-    times.earlier = times.last;
-    times.known = std::min(times.known + 1, 2);
+    times_.earlier = times_.last;
+    times_.known = std::min(times_.known + 1, 2);
   }
   force_ = change_;
-  times.last = time;
+  times_.last = time;
 
-  if (free_mean) {
+  if (settings_.free_mean) {
     Eigen::Vector3d missing = -rows(force_).rowwise().sum();
     for (int d = 0; d < 3; ++d) missing[d] -= others[d];
     reduce(missing.data(), 3, MPI_SUM, flow);
     force_ += uniform_ * (drag_ * missing);
-    flow.drive.mean = mean_;
   }
-  return flow.spread(kernel_, markers_, position_.data(), force_.data(), 1.0);
+  return flow.spread(markers_, force_.data(), 1.0);
 }
 
 /// The uniform velocity that directions without net force leave of a velocity, in the norm of the preconditioner.
@@ -139,32 +138,32 @@ Eigen::Vector3d RigidSurface::uniform_part(const Flow &flow, const Vector &veloc
 RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
 {
   Outcome outcome;
-  flow.share_velocity();
-  flow.interpolate(kernel_, markers_, position_.data(), response_.data());
-  resistance_.yield(force_.data(), yielded_.data());
-  residual_ = target_ - response_ - yielded_;
+  flow.fill_ghosts();
+  flow.interpolate(markers_, response_.data());
+  preconditioner_.apply_compliance(force_.data(), compliance_.data());
+  residual_ = target_ - response_ - compliance_;
 
   // residuals are what their uniform part leaves of them
-  Vec3 mean_change{0, 0, 0};
+  Real3 mean_change{0, 0, 0};
   // largest residual and slip, which differ by what markers yield; speed
   double largest[3]{0, 0, std::max(fastest(flow), largest_row(target_))};
   while (true) {
-    if (free_mean) {
+    if (settings_.free_mean) {
       const Eigen::Vector3d part = uniform_part(flow, residual_);
       rows(residual_).colwise() -= part;
       for (int d = 0; d < 3; ++d) mean_change[d] += part[d];
     }
     largest[0] = largest_row(residual_);
-    change_ = residual_ + yielded_;
+    change_ = residual_ + compliance_;
     largest[1] = largest_row(change_);
     reduce(largest, 3, MPI_MAX, flow);
-    const double allowed = tolerance * largest[2];
+    const double allowed = settings_.tolerance * largest[2];
     outcome.slip = largest[1] == 0 ? 0 : largest[1] / largest[2];
     const auto is_still = [allowed](double residual, double slip) {
       return slip <= allowed || residual <= std::min(allowed, negligible * slip);
     };
     outcome.converged = is_still(largest[0], largest[1]);
-    if (outcome.converged || outcome.solves >= max_solves) break;
+    if (outcome.converged || outcome.solves >= settings_.max_solves) break;
 
     // change_: what is left after the best combination of the directions known, step_
     const auto known = directions_.leftCols(known_), responses = responses_.leftCols(known_);
@@ -175,8 +174,8 @@ RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
     change_.noalias() = residual_ - responses * shares;
     const double square = shares.squaredNorm();
     if (square > 0) use_.head(known_) = memory * use_.head(known_) + shares.cwiseAbs2() / square;
-    if (free_mean) rows(change_).colwise() -= uniform_part(flow, change_);
-    direction_ = change_ + yielded_;
+    if (settings_.free_mean) rows(change_).colwise() -= uniform_part(flow, change_);
+    direction_ = change_ + compliance_;
     double left[2]{largest_row(change_), largest_row(direction_)};
     reduce(left, 2, MPI_MAX, flow);
 
@@ -192,13 +191,13 @@ RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
     }
     // that of the directions known is residual_ - change_ but for a uniform velocity, which no direction feels
     change_ = residual_ - change_;
-    flow.respond(kernel_, markers_, position_.data(), step_.data(), response_.data());
+    flow.apply_mobility(markers_, step_.data(), response_.data());
     ++outcome.solves;
-    flow.add_response(1.0);
+    flow.add_mobility_flow(1.0);
     force_ += step_;
-    resistance_.yield(step_.data(), yield_.data());
-    response_ += yield_;
-    yielded_ += yield_;
+    preconditioner_.apply_compliance(step_.data(), compliance_step_.data());
+    response_ += compliance_step_;
+    compliance_ += compliance_step_;
     residual_ -= response_;
     if (enough) continue;
 
@@ -209,10 +208,9 @@ RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
     add_direction(1 / std::sqrt(products[1]));
     length_ = std::min(std::max(products[0] / products[1], 1 / longest), longest);
   }
-  if (free_mean) {
+  if (settings_.free_mean) {
     flow.add_mean(mean_change);
-    for (int d = 0; d < 3; ++d) mean_[d] = flow.drive.mean[d] + mean_change[d];
-    flow.drive.mean = mean_;
+    for (int d = 0; d < 3; ++d) mean_[d] += mean_change[d];
   }
   return outcome;
 }
@@ -220,8 +218,8 @@ RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
 /// Positive definite on forces without a sum.
 void RigidSurface::precondition(const Flow &flow, const Vector &velocity, Vector &force)
 {
-  resistance_.apply(velocity.data(), force.data());
-  if (!free_mean) return;
+  preconditioner_.apply(velocity.data(), force.data());
+  if (!settings_.free_mean) return;
   Eigen::Vector3d sum = rows(force).rowwise().sum();
   reduce(sum.data(), 3, MPI_SUM, flow);
   force.noalias() -= uniform_ * (drag_ * sum);
@@ -231,7 +229,7 @@ void RigidSurface::precondition(const Flow &flow, const Vector &velocity, Vector
 void RigidSurface::add_direction(double scale)
 {
   int place = known_;
-  if (known_ == most_directions)
+  if (known_ == settings_.most_directions)
     use_.minCoeff(&place);
   else
     ++known_;
@@ -246,7 +244,7 @@ std::size_t RigidSurface::bytes() const
   for (const Vector *vector : {&position_, &target_, &force_, &earlier_, &residual_, &step_,
                                &response_, &direction_, &change_, &use_, &shares_})
     numbers += vector->size();
-  return numbers * sizeof(double) + resistance_.bytes();
+  return numbers * sizeof(double) + preconditioner_.bytes();
 }
 
 }    // namespace fluid

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fluid/marker_resistance.h"
+#include "fluid/mobility_preconditioner.h"
 
 #include <Eigen/Core>
 
@@ -18,11 +18,17 @@ namespace fluid {
 /// unknown c more, with sum lambda = given, A lambda + c = U - u. Directions then have no net force.
 class RigidSurface {
  public:
-  /// Largest slip relative to the largest speed; where markers yield by more, the largest residual.
-  double tolerance = 1e-3;
-  int max_solves = 100;    ///< of an evaluation, including the first
-  int most_directions = 64;
-  bool free_mean = false;
+  struct Settings {
+    /// Largest slip relative to the largest speed; where markers yield by more, the largest residual.
+    double tolerance = 1e-3;
+    int max_solves = 100;    ///< of an evaluation, including the first
+    int most_directions = 64;
+    bool free_mean = false;
+  };
+  const Settings &settings() const { return settings_; }
+
+  /// Takes effect with the next set_markers.
+  void choose(const Settings &settings) { settings_ = settings; }
 
   /// New markers at new places, three numbers each; all that is known of others is forgotten.
   void set_markers(const Flow &flow, KernelKind kernel, int count, const double *position,
@@ -42,12 +48,13 @@ class RigidSurface {
     double last = 0, earlier = 0;
     int known = 0;    ///< of the two
   };
-  Times times;
+  const Times &times() const { return times_; }
+  void set_times(const Times &times) { times_ = times; }
 
-  /// Between clear_force and gather_force of Flow: guesses the forces of a time and spreads them. `others` is the sum of
-  /// this rank's share of all other forces; it counts for a free mean only. Sets the mean velocity of the flow's drive,
-  /// then. Returns what spread does.
-  int spread(Flow &flow, double time, const Vec3 &others);
+  /// Between clear_force and accumulate_ghosts of Flow: guesses the forces of a time and spreads them. `others` is the sum of
+  /// this rank's share of all other forces; it counts for a free mean only. Returns
+  /// what spread does.
+  int spread(Flow &flow, double time, const Real3 &others);
 
   struct Outcome {
     int solves = 1;
@@ -55,7 +62,10 @@ class RigidSurface {
     bool converged = false;
   };
 
-  /// After solve: corrects forces and flow. The ghosts of the velocity are filled.
+  /// Where the mean velocity is free: the one that the solve after spread() must be for; then, corrected by enforce().
+  const Real3 &mean() const { return mean_; }
+
+  /// After solve: corrects forces, flow and mean velocity. The ghosts of the velocity are filled.
   Outcome enforce(Flow &flow);
 
   std::size_t bytes() const;
@@ -64,14 +74,15 @@ class RigidSurface {
   using Vector = Eigen::VectorXd;
   using Columns = Eigen::MatrixXd;
 
-  KernelKind kernel_ = KernelKind::peskin4;
+  Settings settings_;
+  Times times_;
   std::vector<int> index_;
-  Markers markers_;
-  MarkerResistance resistance_;
+  MarkerSet markers_;
+  MobilityPreconditioner preconditioner_;
 
-  Vector position_, target_, force_, earlier_, yield_, yielded_;
+  Vector position_, target_, force_, earlier_, compliance_step_, compliance_;
   Vector residual_, step_, response_, direction_, change_;
-  Vec3 mean_{0, 0, 0};
+  Real3 mean_{0, 0, 0};
 
   // net force: forces of the preconditioner for unit velocities, and the inverse of their sums
   Eigen::Matrix<double, Eigen::Dynamic, 3> uniform_;
@@ -81,8 +92,8 @@ class RigidSurface {
   Columns directions_, responses_;
   Vector use_, shares_;
   int known_ = 0;
-  double length_ =
-      1;    ///< of a step along the preconditioned residual, as it was best the last time
+  /// Optimal step length along the preconditioned residual, found in the previous iteration.
+  double length_ = 1;
 
   void forget() { known_ = 0; }
   void precondition(const Flow &flow, const Vector &velocity, Vector &force);

@@ -5,7 +5,7 @@ namespace fluid {
 StokesSolver::StokesSolver(const Grid &grid, const Decomposition &decomposition, double viscosity,
                            double shift, bool hold_mean, Scheme scheme) :
     fourier_(grid, decomposition),
-    modes_(!grid.walls ? make_periodic_modes(grid, fourier_.modes(), viscosity, shift, hold_mean)
+    modes_(!grid.plates ? make_periodic_modes(grid, fourier_.modes(), viscosity, shift, hold_mean)
            : scheme == Scheme::projection
                ? make_projected_modes(grid, fourier_.modes(), viscosity, shift)
                : make_walled_modes(grid, fourier_.modes(), viscosity, shift))
@@ -17,15 +17,15 @@ std::array<View<Complex>, 3> StokesSolver::spectrum() const
   return {fourier_.spectrum(0), fourier_.spectrum(1), fourier_.spectrum(2)};
 }
 
-void StokesSolver::velocity(const VectorField &force, const Drive &drive,
+void StokesSolver::velocity(const VectorField &force, const Forcing &forcing,
                             const VectorField &velocity)
 {
   fourier_.forward(force.views());
-  modes_->solve(spectrum(), drive, nullptr);
+  modes_->solve(spectrum(), forcing, nullptr);
   fourier_.backward(velocity.views());
 }
 
-void StokesSolver::pressure(const VectorField &force, const Drive &drive,
+void StokesSolver::pressure(const VectorField &force, const Forcing &forcing,
                             const ScalarField &pressure)
 {
   const Components<Complex, 1> *const kept = modes_->kept_pressure();
@@ -33,7 +33,7 @@ void StokesSolver::pressure(const VectorField &force, const Drive &drive,
   const View<Complex> modes = kept ? (*kept)[0] : pressure_modes_[0];
   if (!kept) {
     fourier_.forward(force.views());
-    modes_->solve(spectrum(), drive, &modes);
+    modes_->solve(spectrum(), forcing, &modes);
   }
   std::copy_n(modes.data, modes.box.size(), fourier_.spectrum(0).data);
   fourier_.backward(pressure.views());

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "fluid/flow_equations.h"
 #include "fluid/mode_solver.h"
-#include "fluid/regime.h"
 
 namespace fluid {
 
@@ -16,11 +16,11 @@ class StokesSolver {
   void set_shift(double shift) { modes_->set_shift(shift); }
 
   /// Sets the velocity on this rank's brick from the force on all bricks; they may be the same field.
-  void velocity(const VectorField &force, const Drive &drive, const VectorField &velocity);
+  void velocity(const VectorField &force, const Forcing &forcing, const VectorField &velocity);
 
   /// Sets the pressure (mean zero) that belongs to the force; costs a solve, and memory at the first call. That of a
   /// projection is the one of the last solve.
-  void pressure(const VectorField &force, const Drive &drive, const ScalarField &pressure);
+  void pressure(const VectorField &force, const Forcing &forcing, const ScalarField &pressure);
 
   /// The modes kept from solve to solve (none but the pressure of a projection), and where they are.
   const Components<Complex, 1> *kept_modes() const { return modes_->kept_pressure(); }

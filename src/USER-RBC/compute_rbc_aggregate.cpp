@@ -4,7 +4,6 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "fix_rbc_membrane.h"
 #include "memory.h"
 #include "neighbor.h"
 #include "update.h"
@@ -174,15 +173,15 @@ ComputeRBCAggregate::Surface ComputeRBCAggregate::surface_here() const
 {
   Surface surface{std::vector<double>(atom->nlocal), std::vector<char>(cells.size())};
   if (least_share == 0) return surface;
-  for (FixRBCMembrane *fix : cells.membranes()) {
-    LocalCells &local = fix->local_cells();
+  for (CellMembranes *membranes : cells.membranes()) {
+    LocalCells &local = membranes->local_cells();
     std::vector<double> areas(local.cells().size());
-    std::vector<Vec3> x(fix->shape().size());
+    std::vector<Vec3> x(membranes->shape().size());
     for (std::size_t c = 0; c < areas.size(); ++c) {
       const LocalCells::Cell &cell = local.cells()[c];
       local.gather(cell, x);
       for (int t : cell.elements->triangles) {
-        const auto &[i, j, k] = fix->shape().triangles[t];
+        const auto &[i, j, k] = membranes->shape().triangles[t];
         const double third = (x[j] - x[i]).cross(x[k] - x[i]).norm() / 6;
         for (int v : {i, j, k}) {
           if (!cell.elements->owned[v]) continue;
@@ -195,7 +194,7 @@ ComputeRBCAggregate::Surface ComputeRBCAggregate::surface_here() const
 
     for (std::size_t c = 0; c < areas.size(); ++c) {
       const LocalCells::Cell &cell = local.cells()[c];
-      for (int v = 0; v < fix->shape().size(); ++v)
+      for (int v = 0; v < membranes->shape().size(); ++v)
         if (cell.elements->owned[v]) surface.share[cell.atom[v]] /= areas[c];
       const int index = cells.index_of(local.molecules()[cell.index]);
       if (index >= 0) surface.split[index] = cell.shared >= 0;

@@ -10,8 +10,8 @@ ComputeStyle(rbc/aggregate,ComputeRBCAggregate);
 #include "compute.h"
 #include "contact/aggregate_sizes.h"
 #include "contact/touching_cells.h"
-#include "rbc_group_cells.h"
-#include "rbc_near_surfaces.h"
+#include "cells/rbc_group_cells.h"
+#include "cells/rbc_near_surfaces.h"
 
 #include <vector>
 

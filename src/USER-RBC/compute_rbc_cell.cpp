@@ -2,7 +2,6 @@
 
 #include "atom.h"
 #include "error.h"
-#include "fix_rbc_membrane.h"
 #include "membrane/cell_shape.h"
 #include "memory.h"
 #include "update.h"
@@ -67,7 +66,7 @@ void ComputeRBCCell::compute_array()
 {
   invoked_array = update->ntimestep;
   sums.assign(std::size_t(cells.size()) * NSUMS, 0.0);
-  for (FixRBCMembrane *fix : cells.membranes()) add_sums(fix);
+  for (CellMembranes *membranes : cells.membranes()) add_sums(*membranes);
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
                 world);
 
@@ -100,10 +99,10 @@ void ComputeRBCCell::compute_array()
 
 /* ---------------------------------------------------------------------- */
 
-void ComputeRBCCell::add_sums(FixRBCMembrane *fix)
+void ComputeRBCCell::add_sums(CellMembranes &membranes)
 {
-  LocalCells &local = fix->local_cells();
-  const rbc::SurfaceTemplate &shape = fix->shape();
+  LocalCells &local = membranes.local_cells();
+  const rbc::SurfaceTemplate &shape = membranes.shape();
   std::vector<Vec3> x(shape.size());
   for (const LocalCells::Cell &cell : local.cells()) {
     const int row = cells.index_of(local.molecules()[cell.index]);

@@ -8,7 +8,7 @@ ComputeStyle(rbc/cell,ComputeRBCCell);
 #define LMP_COMPUTE_RBC_CELL_H
 
 #include "compute.h"
-#include "rbc_group_cells.h"
+#include "cells/rbc_group_cells.h"
 
 #include <vector>
 
@@ -27,7 +27,7 @@ class ComputeRBCCell : public Compute {
   GroupCells cells;    // one for each row
   std::vector<double> sums;
 
-  void add_sums(class FixRBCMembrane *);
+  void add_sums(CellMembranes &);
 };
 
 }    // namespace LAMMPS_NS

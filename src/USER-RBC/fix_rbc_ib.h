@@ -7,17 +7,24 @@ FixStyle(rbc/ib,FixRBCIB);
 #ifndef LMP_FIX_RBC_IB_H
 #define LMP_FIX_RBC_IB_H
 
+#include "coupling/rbc_fluid_client.h"
+#include "coupling/rbc_massive_markers.h"
+#include "coupling/rbc_step_cost.h"
+#include "coupling/rbc_time_steps.h"
 #include "fix.h"
-#include "fluid/direct_forcing.h"
-#include "rbc_steady_steps.h"
 
 #include <memory>
 #include <string>
 #include <vector>
 
+namespace rbc {
+struct IntegratorKind;
+}
+
 namespace LAMMPS_NS {
 
-class FixRBCIB : public Fix {
+/// Moves atoms with a fluid that their forces drive: arguments, checks, output and LAMMPS's hooks.
+class FixRBCIB : public Fix, public FluidClient {
  public:
   FixRBCIB(class LAMMPS *, int, char **);
   ~FixRBCIB() override;
@@ -36,58 +43,42 @@ class FixRBCIB : public Fix {
   void restart(char *) override;
   void set_arrays(int) override;
 
-  const std::string &fluid() const { return fluid_id; }    // ID of the fix rbc/fluid it drives
-  double courant() const { return motion->courant; }    // fluid cells that an atom may cross a step
-  bool has_sheets() const;                              // its atoms are sheets of markers
+  const std::string &fluid_id() const override { return fluid; }
+  bool drives_flow() const override { return true; }
+  double cells_per_step() const override { return courant; }
+  bool has_sheets() const override;
 
  private:
-  using Integrator = SteadySteps::Method;
-  enum class Scheme { ELASTIC, DIRECT };
   enum class Sheets { WITH_MEMBRANES, YES, NO };
-  using Stage = MarkerMotion::Stage;
 
-  std::string fluid_id;
-  Scheme scheme = Scheme::ELASTIC;
+  std::string fluid;
   Sheets sheets = Sheets::WITH_MEMBRANES;
+  double courant = 1;
+  int most_solves = 0, integrator_code = 0;
+  bool direct = false;      // scheme direct
+  bool iterates = false;    // keywords of iterations were given
 
-  class FixRBCFluid *fluid_fix = nullptr;
-  bool inertia = false;    // of the fluid
-  std::vector<class FixRBCMembrane *> membranes;
-  std::vector<class PairRBCJKR *> contacts;
-  std::unique_ptr<MarkerMotion> motion;
-  std::unique_ptr<SteadySteps> steady;
-
-  bigint first_solve = 0, first_step = 0;
-  bool late_forces = false;    // of a fix defined after this one, which setup() does not see
-
-  // kept per atom while it migrates and in restart files
+  DrivenFlow *flow = nullptr;
+  std::unique_ptr<ImmersedMarkers> markers;
+  std::unique_ptr<MassiveMarkers> masses;    // of scheme direct, else null
+  std::unique_ptr<TimeSteps> steps;
+  StepCost cost;
 
   std::string store_id;
-  class FixStoreAtom *store = nullptr;
-  int stored() const;
-
-  rbc::Numbers start, velocity, position;    // of a step with inertia
-
-  // scheme direct: markers with mass
-
-  fluid::DirectForcing direct;
-  fluid::KernelKind kernel = fluid::KernelKind::peskin4;
-  // Per atom: velocity in the middle of the step before the last, inertial force, what the last velocity misses of
-  // what the forces would have made it (so that errors below the tolerance do not add up), steps known (0 to 2).
-  static constexpr int OLDER = 0, INERTIAL = 3, MISSING = 6, STEPS = 9;
-  double last_dt = 0, last_between = 0;    // time between the middles of the last two steps
-  std::vector<double> applied, resistance, target, inertial;
-  bool iterates = false;    // keywords of iterations were given
-  bigint unconverged = 0;
-  double coupling_error = 0;
-  double exerted[3] = {0, 0, 0};    // by this task's atoms on the fluid
+  class FixStoreAtom *store = nullptr;    // numbers kept for each atom
 
   void parse(int, char **);
-  void advance_with_inertia();
-  void step_fluid();
-  void couple_masses();
-  void check_moves_all(const Fix *) const;
-  void check_apart(const Fix *wall) const;
+  static const rbc::IntegratorKind *find_integrator(const std::string &);
+  static std::string integrator_words();
+  int parse_stages(int, const char *);
+  int stored() const;
+  std::vector<FluidClient *> clients() const;
+  void check_run() const;
+  void check_inertia() const;
+  bool check_order() const;
+  void check_moves_all(const CellMembranes &) const;
+  void check_apart(const WallGroup &) const;
+  void warn() const;
 };
 
 }    // namespace LAMMPS_NS

@@ -7,7 +7,6 @@
 #include "error.h"
 #include "force.h"
 #include "math_const.h"
-#include "membrane/membrane_viscosity.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "pair.h"
@@ -19,15 +18,12 @@
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
-using rbc::Vec3;
-
-// steps over which the volume returns to that of the template
-
-static constexpr double VOLUME_STEPS = 10.0;
 
 /* ---------------------------------------------------------------------- */
 
-FixRBCMembrane::FixRBCMembrane(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
+FixRBCMembrane::FixRBCMembrane(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), ghosts(lmp),
+    cells(lmp, fmt::format("Fix rbc/membrane {}", id), groupbit, parse(narg, arg))
 {
   scalar_flag = vector_flag = 1;
   size_vector = 5;
@@ -35,33 +31,19 @@ FixRBCMembrane::FixRBCMembrane(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, nar
   extscalar = extvector = 1;
   energy_global_flag = 1;
   virial_global_flag = 1;
-
-  if (narg < 5) utils::missing_cmd_args(FLERR, "fix rbc/membrane", error);
-  surface = make_cell_template(lmp, arg[3], "fix rbc/membrane");
-  model = std::make_unique<rbc::MembraneModel>(*surface, parse(narg, arg));
-  model->set_rest_volume(swelling.now() * surface->volume);
-  restart_global = swelling.varies() ? 1 : 0;
-  cells =
-      std::make_unique<LocalCells>(lmp, *surface, groupbit, fmt::format("Fix rbc/membrane {}", id));
-  own_stop = std::make_shared<CollectiveStop>(lmp);
-  x.resize(surface->size());
-  f.resize(surface->size());
-  if (is_viscous()) {
-    v.resize(surface->size());
-    comm_forward = 3;
-  }
-}
-
-FixRBCMembrane::~FixRBCMembrane()
-{
-  if (comm->cutghostuser == ghost_cutoff) comm->cutghostuser = 0;
+  restart_global = cells.swelling().varies() ? 1 : 0;
 }
 
 /* ---------------------------------------------------------------------- */
 
-rbc::MembraneParameters FixRBCMembrane::parse(int narg, char **arg)
+MembraneSettings FixRBCMembrane::parse(int narg, char **arg)
 {
-  rbc::MembraneParameters parameters;
+  if (narg < 5) utils::missing_cmd_args(FLERR, "fix rbc/membrane", error);
+  MembraneSettings settings;
+  settings.surface = make_cell_template(lmp, arg[3], "fix rbc/membrane");
+  rbc::MembraneParameters &parameters = settings.elastic;
+  rbc::SurfaceViscosity &viscosity = settings.viscosity;
+  Swelling &swelling = settings.swelling;
   int iarg = 4;
   const auto need = [&](int n, const std::string &keyword) {
     if (iarg + n >= narg) utils::missing_cmd_args(FLERR, "fix rbc/membrane " + keyword, error);
@@ -150,7 +132,7 @@ rbc::MembraneParameters FixRBCMembrane::parse(int narg, char **arg)
     } else if (keyword == "volume") {
       need(1, keyword);
       const std::string value = arg[iarg + 1];
-      volume_kept = value == "yes";
+      settings.volume_kept = value == "yes";
       parameters.volume = 0;
       if (value != "yes" && value != "no") {
         if (!utils::is_double(value))
@@ -181,7 +163,7 @@ rbc::MembraneParameters FixRBCMembrane::parse(int narg, char **arg)
       iarg += 2;
     } else if (keyword == "stress-free") {
       need(1, keyword);
-      take_stress_free_shape(lmp, *surface, arg[3], arg[iarg + 1], "fix rbc/membrane");
+      take_stress_free_shape(lmp, *settings.surface, arg[3], arg[iarg + 1], "fix rbc/membrane");
       iarg += 2;
     } else
       error->all(FLERR, iarg,
@@ -191,9 +173,9 @@ rbc::MembraneParameters FixRBCMembrane::parse(int narg, char **arg)
   }
   if (parameters.crease.stiffness > 0 && parameters.bending == 0)
     error->all(FLERR, "Fix rbc/membrane crease needs a bending modulus > 0");
-  if ((swelling.varies() || swelling.now() != 1) && !volume_kept && parameters.volume == 0)
+  if ((swelling.varies() || swelling.now() != 1) && !settings.volume_kept && parameters.volume == 0)
     error->all(FLERR, "Fix rbc/membrane swell needs volume yes or a modulus of the volume");
-  return parameters;
+  return settings;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -212,9 +194,15 @@ void FixRBCMembrane::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix rbc/membrane cannot be used with run_style respa");
   if (update->whichflag == 2) error->all(FLERR, "Fix rbc/membrane cannot be used with minimize");
-  swelling.check(lmp, "fix rbc/membrane swell");
-  stop = own_stop;
-  cells->find();
+  cells.start_run();
+  check_apart();
+  ask_for_ghosts();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCMembrane::check_apart() const
+{
   for (Fix *other : modify->get_fix_by_style("^rbc/membrane$")) {
     if (other == this) break;
     int shared = 0;
@@ -225,318 +213,59 @@ void FixRBCMembrane::init()
       error->all(FLERR, "Fix rbc/membrane {} and {} share atoms: a cell belongs to one of them",
                  other->id, id);
   }
-
-  // what comm_modify cutoff asks for is left alone
-
-  if (comm->cutghostuser != 0 && comm->cutghostuser != ghost_cutoff) return;
-  double reach = 0;
-  for (Fix *fix : modify->get_fix_by_style("^rbc/membrane$"))
-    reach = std::max(reach, dynamic_cast<FixRBCMembrane *>(fix)->reach());
-  if (force->pair) reach = std::max(reach, force->pair->cutforce);    // or LAMMPS warns
-  comm->cutghostuser = ghost_cutoff = reach + neighbor->skin;
 }
 
 /* ----------------------------------------------------------------------
-   vertices of other ranks are needed up to two edges away with bending, stretched by half
+   the ghost cutoff is one for all fixes rbc/membrane, and LAMMPS warns if it is below that of pairs
 ------------------------------------------------------------------------- */
 
-double FixRBCMembrane::reach() const
+void FixRBCMembrane::ask_for_ghosts()
 {
-  return (model->parameters().bending > 0 ? 3 : 2) * surface->longest_edge;
+  if (ghosts.is_given_by_user()) return;
+  double reach = 0;
+  for (const CellMembranes *membranes : all_cell_membranes(lmp))
+    reach = std::max(reach, membranes->ghost_reach());
+  if (force->pair) reach = std::max(reach, force->pair->cutforce);
+  ghosts.ask_for(reach + neighbor->skin);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixRBCMembrane::setup_post_neighbor()
 {
-  post_neighbor();
+  cells.update_ownership();
 }
 
 void FixRBCMembrane::post_neighbor()
 {
-  cells->bind(model->parameters().bending > 0);
-  const std::size_t count = cells->cells().size();
-  sizes.resize(2 * count);
-  volume_rates.resize(count);
-  volume_gradient.resize(volume_kept ? count * surface->size() : 0);
-  linear_at.resize(is_thinning() ? count * surface->size() : 0);
+  cells.update_ownership();
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixRBCMembrane::setup(int vflag)
 {
-  update_swelling(true);
+  cells.update_swelling(true);
   post_force(vflag);
 }
 
 void FixRBCMembrane::post_force(int vflag)
 {
-  stopwatch.start();
   v_init(vflag);
-  update_swelling(false);
-  const bool measuring = model->needs_size() || neighbor->ago == 0;
-  if (measuring) measure_shared_cells();
-  energy = {};
+  CellMembranes::VirialTally tally;
+  if (evflag) tally = [this](int vertex, double *virial_of) { v_tally(vertex, virial_of); };
+  cells.tally_virial(tally);
+  cells.add_forces();
   energy_step = -1;
-  const auto &local = cells->cells();
-  for (std::size_t c = 0; c < local.size(); ++c) {
-    take(local[c]);
-    if (measuring && local[c].shared < 0) store_size(c);
-    check(local[c], measuring ? sizes[2 * c + 1] : surface->volume);
-    add_forces(local[c], {sizes[2 * c], sizes[2 * c + 1]});
-  }
-  stopwatch.stop();
-  if (is_viscous()) add_viscous_forces(true);
-  if (stop == own_stop) stop->check();
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixRBCMembrane::update_swelling(bool new_run)
-{
-  if (!swelling.varies()) return;
-  swelling.update(lmp, new_run);
-  if (!std::isfinite(swelling.now()) || swelling.now() <= 0)
-    error->all(FLERR, "Fix rbc/membrane {}: swell is {} at step {}; it must be > 0", id,
-               swelling.now(), update->ntimestep);
-  model->set_rest_volume(swelling.now() * surface->volume);
-}
-
-/* ----------------------------------------------------------------------
-   takes a cell in hand as it is now
-------------------------------------------------------------------------- */
-
-void FixRBCMembrane::take(const LocalCells::Cell &cell)
-{
-  cells->gather(cell, x);
-  model->set_cell(*cell.elements, x);
-}
-
-/* ----------------------------------------------------------------------
-   area and volume of the cell in hand, cell c here, or this rank's share of them
-------------------------------------------------------------------------- */
-
-void FixRBCMembrane::store_size(std::size_t c)
-{
-  const rbc::CellSize share = model->size();
-  sizes[2 * c] = share.area;
-  sizes[2 * c + 1] = share.volume;
-}
-
-/* ----------------------------------------------------------------------
-   area and volume of the cells that several ranks share
-------------------------------------------------------------------------- */
-
-void FixRBCMembrane::measure_shared_cells()
-{
-  const auto &local = cells->cells();
-  for (std::size_t c = 0; c < local.size(); ++c) {
-    if (local[c].shared < 0) continue;
-    take(local[c]);
-    store_size(c);
-  }
-  cells->sum_shared(sizes, 2);
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixRBCMembrane::check(const LocalCells::Cell &cell, double volume)
-{
-  const std::string flaw = model->find_flaw();
-  if (!flaw.empty()) report(cell, flaw);
-  if (volume <= 0) report(cell, "the cell turned inside out");
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixRBCMembrane::add_forces(const LocalCells::Cell &cell, const rbc::CellSize &size)
-{
-  const rbc::MembraneEnergy share = model->forces(size, f);
-  if (!std::isfinite(share.total())) report(cell, "the energy of the membrane is not a number");
-  energy.sheet += share.sheet;
-  energy.bending += share.bending;
-  energy.area += share.area;
-  energy.volume += share.volume;
-  add_to_atoms(cell, true);
-}
-
-void FixRBCMembrane::add_to_atoms(const LocalCells::Cell &cell, bool with_virial)
-{
-  double **const force = atom->f;
-  const int size = surface->size();
-  for (int i = 0; i < size; ++i) {
-    if (!cell.elements->owned[i]) continue;
-    double *const at = force[cell.atom[i]];
-    for (int d = 0; d < 3; ++d) at[d] += f[i][d];
-  }
-  if (!with_virial || !evflag) return;
-  for (int i = 0; i < size; ++i) {
-    if (!cell.elements->owned[i]) continue;
-    double virial_of_vertex[6] = {x[i][0] * f[i][0], x[i][1] * f[i][1], x[i][2] * f[i][2],
-                                  x[i][0] * f[i][1], x[i][0] * f[i][2], x[i][1] * f[i][2]};
-    v_tally(cell.atom[i], virial_of_vertex);
-  }
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixRBCMembrane::add_viscous_forces(bool with_virial, double multiple)
-{
-  stopwatch.start();
-  if (comm->nprocs > 1) comm->forward_comm(this);
-  for (const LocalCells::Cell &cell : cells->cells()) {
-    viscous_forces(cell);
-    if (multiple != 1)
-      for (Vec3 &force : f) force *= multiple;
-    add_to_atoms(cell, with_virial);
-  }
-  stopwatch.stop();
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixRBCMembrane::linearise(bool frozen)
-{
-  if (!is_thinning()) return;
-  viscosity_frozen = frozen;
-  if (comm->nprocs > 1) comm->forward_comm(this);
-  Vec3 *at = linear_at.data();
-  for (const LocalCells::Cell &cell : cells->cells()) {
-    gather_velocities(cell);
-    at = std::copy(v.begin(), v.end(), at);
-  }
-}
-
-void FixRBCMembrane::add_viscous_change()
-{
-  if (!is_thinning()) return add_viscous_forces(false);
-  stopwatch.start();
-  if (comm->nprocs > 1) comm->forward_comm(this);
-  const Vec3 *at = linear_at.data();
-  for (const LocalCells::Cell &cell : cells->cells()) {
-    cells->gather(cell, x);
-    gather_velocities(cell);
-    rbc::viscous_forces_change(*surface, viscosity, *cell.elements, x, at, viscosity_frozen, v, f);
-    add_to_atoms(cell, false);
-    at += surface->size();
-  }
-  stopwatch.stop();
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixRBCMembrane::gather_velocities(const LocalCells::Cell &cell)
-{
-  for (int i = 0; i < surface->size(); ++i)
-    if (cell.atom[i] >= 0) v[i] = Vec3(atom->v[cell.atom[i]]);
-}
-
-/* ----------------------------------------------------------------------
-   forces on the vertices of a cell; returns the power that its part here dissipates
-------------------------------------------------------------------------- */
-
-double FixRBCMembrane::viscous_forces(const LocalCells::Cell &cell)
-{
-  cells->gather(cell, x);
-  gather_velocities(cell);
-  return rbc::viscous_forces(*surface, viscosity, *cell.elements, x, v, f);
-}
-
-double FixRBCMembrane::viscous_power()
-{
-  if (comm->nprocs > 1) comm->forward_comm(this);
-  double power = 0;
-  for (const LocalCells::Cell &cell : cells->cells()) power += viscous_forces(cell);
-  MPI_Allreduce(MPI_IN_PLACE, &power, 1, MPI_DOUBLE, MPI_SUM, world);
-  return power;
-}
-
-int FixRBCMembrane::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/,
-                                      int * /*pbc*/)
-{
-  int m = 0;
-  for (int i = 0; i < n; ++i)
-    for (int d = 0; d < 3; ++d) buf[m++] = atom->v[list[i]][d];
-  return m;
-}
-
-void FixRBCMembrane::unpack_forward_comm(int n, int first, double *buf)
-{
-  int m = 0;
-  for (int i = first; i < first + n; ++i)
-    for (int d = 0; d < 3; ++d) atom->v[i][d] = buf[m++];
-}
-
-/* ----------------------------------------------------------------------
-   subtracts from the velocities the part along the volume gradient, so that
-     sum_i dV/dx_i . v_i = (V_rest - V) / (VOLUME_STEPS dt) + dV_rest/dt
-   the gradients of a closed surface sum to zero and exert no torque: neither the cell's velocity nor its rotation
-   changes. The evaluation at the start of a step (new_step) sets the first rate, which the stages after it keep. Where the
-   positions are those in the middle of a step (mid_step), so is the rest volume; it changes as over that step, or, at
-   its start, as over the last.
-------------------------------------------------------------------------- */
-
-void FixRBCMembrane::keep_volume(double dt, bool new_step, bool mid_step)
-{
-  stopwatch.start();
-  update_swelling(false);
-  const double rest = (mid_step ? swelling.middle() : swelling.now()) * surface->volume;
-  const double rest_rate = swelling.change() * surface->volume / dt;
-  double **const v = atom->v;
-  const int size = surface->size();
-  const auto &local = cells->cells();
-  sums.assign(3 * local.size(), 0.0);    // flux, squared gradient, volume
-  for (std::size_t c = 0; c < local.size(); ++c) {
-    const LocalCells::Cell &cell = local[c];
-    take(cell);
-    Vec3 *const gradient = &volume_gradient[c * size];
-    model->volume_gradient(gradient);
-    for (int i = 0; i < size; ++i) {
-      if (!cell.elements->owned[i]) continue;
-      sums[3 * c] += gradient[i].dot(Vec3(v[cell.atom[i]]));
-      sums[3 * c + 1] += gradient[i].squaredNorm();
-    }
-    sums[3 * c + 2] = model->size().volume;
-  }
-  cells->sum_shared(sums, 3);
-
-  for (std::size_t c = 0; c < local.size(); ++c) {
-    const LocalCells::Cell &cell = local[c];
-    if (!(sums[3 * c + 2] > 0)) report(cell, "the cell turned inside out");
-    if (new_step) volume_rates[c] = (rest - sums[3 * c + 2]) / (VOLUME_STEPS * dt);
-    const double factor = (volume_rates[c] + rest_rate - sums[3 * c]) / sums[3 * c + 1];
-    const Vec3 *const gradient = &volume_gradient[c * size];
-    for (int i = 0; i < size; ++i) {
-      if (!cell.elements->owned[i]) continue;
-      double *const velocity = v[cell.atom[i]];
-      for (int d = 0; d < 3; ++d) velocity[d] += factor * gradient[i][d];
-    }
-  }
-  stopwatch.stop();
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixRBCMembrane::report(const LocalCells::Cell &cell, const std::string &what)
-{
-  Vec3 centre = cell.origin;
-  domain->remap(centre.data());
-  stop->report(fmt::format(
-      "Fix rbc/membrane {}: {} at step {}: cell with molecule ID {} near ({:.6g}, {:.6g}, {:.6g})",
-      id, what, update->ntimestep, cells->molecules()[cell.index], centre[0], centre[1],
-      centre[2]));
 }
 
 /* ---------------------------------------------------------------------- */
 
 const rbc::MembraneEnergy &FixRBCMembrane::total_energy()
 {
-  if (energy_step != update->ntimestep) {
-    MPI_Allreduce(&energy, &energy_all, 4, MPI_DOUBLE, MPI_SUM, world);
-    energy_step = update->ntimestep;
-  }
-  return energy_all;
+  if (energy_step != update->ntimestep) energy = cells.energy();
+  energy_step = update->ntimestep;
+  return energy;
 }
 
 double FixRBCMembrane::compute_scalar()
@@ -544,9 +273,13 @@ double FixRBCMembrane::compute_scalar()
   return total_energy().total();
 }
 
+/* ----------------------------------------------------------------------
+   energies of 1 sheet, 2 bending, 3 area, 4 volume; 5 power dissipated by the membranes' viscosity
+------------------------------------------------------------------------- */
+
 double FixRBCMembrane::compute_vector(int n)
 {
-  if (n == 4) return is_viscous() ? viscous_power() : 0;
+  if (n == 4) return cells.is_viscous() ? cells.viscous_power() : 0;
   const rbc::MembraneEnergy &parts = total_energy();
   const double part[4] = {parts.sheet, parts.bending, parts.area, parts.volume};
   return part[n];
@@ -559,11 +292,12 @@ void FixRBCMembrane::write_restart(FILE *fp)
   if (comm->me != 0) return;
   const int size = sizeof(Swelling::State);
   fwrite(&size, sizeof(int), 1, fp);
-  fwrite(&swelling.state, size, 1, fp);
+  fwrite(&cells.swelling().state, size, 1, fp);
 }
 
 void FixRBCMembrane::restart(char *buffer)
 {
+  Swelling &swelling = cells.swelling();
   if (swelling.varies()) memcpy(&swelling.state, buffer, sizeof(Swelling::State));
 }
 
@@ -571,7 +305,5 @@ void FixRBCMembrane::restart(char *buffer)
 
 double FixRBCMembrane::memory_usage()
 {
-  const double vertices = static_cast<double>(cells->cells().size()) * surface->size();
-  return vertices * (sizeof(int) + sizeof(Vec3)) +
-         (volume_gradient.size() + linear_at.size()) * sizeof(Vec3);
+  return cells.bytes();
 }

@@ -5,7 +5,6 @@
 #include "compute_rbc_aggregate.h"
 #include "domain.h"
 #include "error.h"
-#include "fix_rbc_membrane.h"
 #include "group.h"
 #include "irregular.h"
 #include "membrane/membrane_tension.h"
@@ -99,22 +98,22 @@ void FixRBCVTK::init()
   bool before = true;
   for (Fix *fix : modify->get_fix_list()) {
     if (fix == this) before = false;
-    auto membrane = dynamic_cast<FixRBCMembrane *>(fix);
-    if (!membrane && strcmp(fix->style, "rbc/ib") != 0) continue;
+    const auto owner = dynamic_cast<MembraneOwner *>(fix);
+    if (!owner && strcmp(fix->style, "rbc/ib") != 0) continue;
     if (!before)
       error->all(FLERR, "Fix rbc/vtk {} must be defined after fix {} {}", id, fix->style, fix->id);
-    if (membrane) sources.push_back(select(membrane));
+    if (owner) sources.push_back(select(owner->membranes()));
   }
   if (sources.empty()) error->all(FLERR, "Fix rbc/vtk {}: there is no fix rbc/membrane", id);
 }
 
 /* ---------------------------------------------------------------------- */
 
-FixRBCVTK::Source FixRBCVTK::select(FixRBCMembrane *membrane)
+FixRBCVTK::Source FixRBCVTK::select(CellMembranes &membranes)
 {
-  const std::vector<tagint> &molecules = membrane->local_cells().molecules();
+  const std::vector<tagint> &molecules = membranes.local_cells().molecules();
   std::vector<int> inside(molecules.size());
-  const int bits = groupbit | membrane->groupbit;
+  const int bits = groupbit | membranes.groupbit();
   for (int i = 0; i < atom->nlocal; ++i) {
     if ((atom->mask[i] & bits) != bits) continue;
     const auto found = std::lower_bound(molecules.begin(), molecules.end(), atom->molecule[i]);
@@ -123,8 +122,8 @@ FixRBCVTK::Source FixRBCVTK::select(FixRBCMembrane *membrane)
   MPI_Allreduce(MPI_IN_PLACE, inside.data(), static_cast<int>(inside.size()), MPI_INT, MPI_SUM,
                 world);
 
-  Source source{membrane, std::vector<int>(molecules.size(), -1), 0};
-  const int size = membrane->shape().size();
+  Source source{&membranes, std::vector<int>(molecules.size(), -1), 0};
+  const int size = membranes.shape().size();
   for (std::size_t c = 0; c < molecules.size(); ++c) {
     if (inside[c] == size)
       source.slots[c] = source.count++;
@@ -175,7 +174,7 @@ void FixRBCVTK::write()
     writers.push_back(find_writers(source));
     const std::vector<int> &ranks = writers.back();
     const auto here = std::count(ranks.begin(), ranks.end(), comm->me);
-    blocks.push_back({&source.membrane->shape(), pieces ? here : source.count});
+    blocks.push_back({&source.membranes->shape(), pieces ? here : source.count});
   }
 
   try {
@@ -203,7 +202,7 @@ void FixRBCVTK::write()
 
 std::vector<int> FixRBCVTK::find_writers(const Source &source) const
 {
-  LocalCells &local = source.membrane->local_cells();
+  LocalCells &local = source.membranes->local_cells();
   std::vector<double> ranks(local.cells().size());
   std::transform(
       local.cells().begin(), local.cells().end(), ranks.begin(),
@@ -223,8 +222,8 @@ std::vector<int> FixRBCVTK::find_writers(const Source &source) const
 std::vector<FixRBCVTK::Vertex> FixRBCVTK::collect(const Source &source,
                                                   const std::vector<int> &writers)
 {
-  const std::vector<LocalCells::Cell> &cells = source.membrane->local_cells().cells();
-  const int size = source.membrane->shape().size();
+  const std::vector<LocalCells::Cell> &cells = source.membranes->local_cells().cells();
+  const int size = source.membranes->shape().size();
   std::vector<Vertex> sent;
   std::vector<int> ranks;
   for (std::size_t c = 0; c < cells.size(); ++c) {
@@ -258,9 +257,9 @@ std::vector<FixRBCVTK::Vertex> FixRBCVTK::collect(const Source &source,
 void FixRBCVTK::write_cells(const Source &source, int block, const std::vector<int> &writers,
                             rbc::VtpWriter *writer)
 {
-  const LocalCells &local = source.membrane->local_cells();
-  const rbc::SurfaceTemplate &shape = source.membrane->shape();
-  const rbc::MembraneParameters &parameters = source.membrane->membrane_model().parameters();
+  const LocalCells &local = source.membranes->local_cells();
+  const rbc::SurfaceTemplate &shape = source.membranes->shape();
+  const rbc::MembraneParameters &parameters = source.membranes->parameters();
   const int size = shape.size();
 
   std::vector<const LocalCells::Cell *> mine;

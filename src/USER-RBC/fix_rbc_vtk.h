@@ -7,7 +7,7 @@ FixStyle(rbc/vtk,FixRBCVTK);
 #ifndef LMP_FIX_RBC_VTK_H
 #define LMP_FIX_RBC_VTK_H
 
-#include "cells/rbc_local_cells.h"
+#include "cells/rbc_cell_membranes.h"
 #include "fix.h"
 
 #include <string>
@@ -30,7 +30,7 @@ class FixRBCVTK : public Fix {
 
  private:
   struct Source {
-    class FixRBCMembrane *membrane;
+    CellMembranes *membranes;
     std::vector<int> slots;    // place of each of its cells among those in the group, -1 for others
     int count;                 // of the cells in the group
   };
@@ -44,7 +44,7 @@ class FixRBCVTK : public Fix {
   std::vector<Source> sources;
   bigint last_step = -1;
 
-  Source select(class FixRBCMembrane *);
+  Source select(CellMembranes &);
   void write();
   std::vector<int> find_writers(const Source &) const;
   std::vector<Vertex> collect(const Source &, const std::vector<int> &);

@@ -1,13 +1,13 @@
 #include "pair_rbc_jkr.h"
 
 #include "atom.h"
+#include "cells/rbc_near_surfaces.h"
 #include "comm.h"
 #include "error.h"
 #include "force.h"
 #include "math_const.h"
 #include "memory.h"
 #include "neighbor.h"
-#include "rbc_near_surfaces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -66,16 +66,6 @@ void PairRBCJKR::allocate()
 }
 
 /* ---------------------------------------------------------------------- */
-
-std::vector<PairRBCJKR *> PairRBCJKR::all(Force *force)
-{
-  std::vector<PairRBCJKR *> found;
-  for (int n = 1;; ++n) {
-    auto *const pair = dynamic_cast<PairRBCJKR *>(force->pair_match("rbc/jkr", 1, n));
-    if (!pair || (!found.empty() && pair == found.back())) return found;
-    found.push_back(pair);
-  }
-}
 
 void PairRBCJKR::report_to(const std::shared_ptr<CollectiveStop> &driver)
 {

@@ -10,14 +10,14 @@ PairStyle(rbc/jkr,PairRBCJKR);
 #include "contact/jkr_contact.h"
 #include "contact/near_triangles.h"
 #include "pair.h"
-#include "support/stopwatch.h"
+#include "support/rbc_step_part.h"
 
 #include <memory>
 #include <vector>
 
 namespace LAMMPS_NS {
 
-class PairRBCJKR : public Pair {
+class PairRBCJKR : public Pair, public StepPart {
  public:
   PairRBCJKR(class LAMMPS *);
   ~PairRBCJKR() override;
@@ -37,12 +37,11 @@ class PairRBCJKR : public Pair {
   void unpack_reverse_comm(int, int *, double *) override;
   double memory_usage() override;
 
-  /// All of this style, of which pair_style hybrid may have several.
-  static std::vector<PairRBCJKR *> all(class Force *);
-
-  void report_to(const std::shared_ptr<class CollectiveStop> &driver);
-
-  rbc::Stopwatch finding, interacting;
+  void report_to(const std::shared_ptr<CollectiveStop> &) override;
+  std::vector<Section> sections() override
+  {
+    return {{"Detection", &finding}, {"Contact", &interacting}};
+  }
 
  private:
   enum Kind { NONE, ADHESIVE, REPULSIVE };
@@ -58,6 +57,7 @@ class PairRBCJKR : public Pair {
   bigint neighbor_calls = -1, neighbor_step = -1;
 
   double adhered_area = 0;
+  rbc::Stopwatch finding, interacting;
   std::vector<double> reactions;    // on all atoms, if forces on ghosts are not returned
 
   void allocate();

@@ -28,7 +28,7 @@ TEST(Advection, IsExactForLinearVelocities)
   const Decomposition decomposition = even(grid, {1, 1, ranks()});
   const Halo halo(grid, decomposition, 1);
   const auto gradient = [](int c, int d) { return noise(7, c, d); };
-  const auto velocity = [&](int c, const Vec3 &x) {
+  const auto velocity = [&](int c, const Real3 &x) {
     double u = noise(8, c);
     for (int d = 0; d < 3; ++d) u += gradient(c, d) * x[d];
     return u;
@@ -38,7 +38,7 @@ TEST(Advection, IsExactForLinearVelocities)
   Error error;
   for_each(decomposition.mine(), [&](int i, int j, int k) {
     for (int c = 0; c < 3; ++c) {
-      const Vec3 x = location(grid, c, i, j, k);
+      const Real3 x = location(grid, c, i, j, k);
       double expected = 0;
       for (int d = 0; d < 3; ++d)
         expected += gradient(c, d) * velocity(d, x) + gradient(d, d) * velocity(c, x);
@@ -50,7 +50,7 @@ TEST(Advection, IsExactForLinearVelocities)
 
 /// The velocity with its ghosts, beyond plates that move too.
 struct Extended {
-  Extended(const Grid &grid, const Decomposition &decomposition, const Walls &walls) :
+  Extended(const Grid &grid, const Decomposition &decomposition, const PlateVelocities &walls) :
       grid(grid), brick(decomposition.mine()), walls(walls), halo(grid, decomposition, 1),
       velocity(halo.box()), advection(halo.box())
   {
@@ -59,13 +59,13 @@ struct Extended {
   void advect()
   {
     halo.fill(velocity.views());
-    if (grid.walls) reflect_velocity(grid, walls, velocity);
+    if (grid.plates) reflect_velocity(grid, walls, velocity);
     add_advection(grid, brick, velocity, 1, advection);
   }
 
   Grid grid;
   Box brick;
-  Walls walls;
+  PlateVelocities walls;
   Halo halo;
   VectorField velocity, advection;
 };
@@ -82,12 +82,12 @@ TEST(Advection, IsOfSecondOrder)
       Extended flow(grid, even(grid, {1, ranks(), 1}),
                     {moving.plate(false, t), moving.plate(true, t)});
       set_vector(flow.velocity, grid, flow.brick,
-                 [&](int c, const Vec3 &x) { return moving.velocity(c, x, t); });
+                 [&](int c, const Real3 &x) { return moving.velocity(c, x, t); });
       flow.advect();
       Error error;
       for_each(flow.brick, [&](int i, int j, int k) {
         for (int c = 0; c < 3; ++c) {
-          const Vec3 x = location(grid, c, i, j, k);
+          const Real3 x = location(grid, c, i, j, k);
           if (walls && c == 2 && k == 0) continue;
           error.add(moving.density * flow.advection[c](i, j, k) -
                     (moving.force(c, x, t) - slow.force(c, x, t)));
@@ -106,14 +106,14 @@ TEST(Advection, ConservesEnergyAndMomentum)
     const Grid grid = box(8, walls);
     for (const auto &[name, decomposition] : layouts(grid)) {
       SCOPED_TRACE(describe(grid) + ", " + name);
-      Flow noisy(grid, decomposition, 1, Regime{1, 1, Inertia::unsteady});
+      ForcedFlow noisy(grid, decomposition, 1, FlowEquations{1, 1, Inertia::unsteady});
       set_noise_velocity(noisy, 1, 1);
       Extended flow(grid, decomposition, {});
       for (int c = 0; c < 3; ++c) set(flow.velocity[c], flow.brick, noisy.velocity()[c]);
       flow.advect();
       double power = dot(flow.velocity, flow.advection, flow.brick);
       double scale = dot(flow.advection, flow.advection, flow.brick);
-      Vec3 momentum{};
+      Real3 momentum{};
       for (int c = 0; c < 3; ++c)
         for_each(flow.brick,
                  [&](int i, int j, int k) { momentum[c] += flow.advection[c](i, j, k); });

@@ -1,7 +1,7 @@
 // Flows left to themselves: the Taylor-Green vortex, and the energy of a flow with hardly any viscosity.
 
 #include "flow_support.h"
-#include "fluid/measures.h"
+#include "fluid/diagnostics.h"
 
 using namespace test;
 
@@ -15,20 +15,20 @@ Grid cube(int n)
 }
 
 /// sin x cos y, -cos x sin y: its discrete advection is a discrete gradient, so that it keeps its shape.
-double vortex(int c, const Vec3 &x)
+double vortex(int c, const Real3 &x)
 {
   if (c == 2) return 0;
   return c == 0 ? std::sin(x[0]) * std::cos(x[1]) : -std::cos(x[0]) * std::sin(x[1]);
 }
 
-void start(Flow &flow)
+void start(ForcedFlow &flow)
 {
   flow.set_velocity(
       [&](int c, int i, int j, int k) { return vortex(c, location(flow.grid(), c, i, j, k)); });
 }
 
 /// Largest difference from the vortex times an amplitude.
-double error(const Flow &flow, double amplitude)
+double error(const ForcedFlow &flow, double amplitude)
 {
   Error error;
   for_each(flow.brick(), [&](int i, int j, int k) {
@@ -44,7 +44,8 @@ TEST(TaylorGreenVortex, DecaysByTheFactorOfTheScheme)
   const Grid grid = cube(8);
   const double h = grid.spacing[0], kappa = 2 * std::sin(h / 2) / h;
   for (Inertia inertia : {Inertia::unsteady, Inertia::convective}) {
-    Flow flow(grid, even(grid, {1, 1, ranks()}), 0, Regime{viscosity, density, inertia});
+    ForcedFlow flow(grid, even(grid, {1, 1, ranks()}), 0,
+                    FlowEquations{viscosity, density, inertia});
     start(flow);
     double amplitude = 1;
     for (int n = 0; n < 12; ++n) {
@@ -61,8 +62,8 @@ TEST(TaylorGreenVortex, DecaysWithSecondOrder)
 {
   const auto error_at_end = [](int n) {
     const Grid grid = cube(n);
-    Flow flow(grid, even(grid, {1, ranks(), 1}), 0,
-              Regime{viscosity, density, Inertia::convective});
+    ForcedFlow flow(grid, even(grid, {1, ranks(), 1}), 0,
+                    FlowEquations{viscosity, density, Inertia::convective});
     start(flow);
     const double duration = 1;
     for (int s = 0; s < n; ++s) step(flow, duration / n);
@@ -77,11 +78,12 @@ TEST(Energy, IsConservedWithoutViscosityButForTheTimeStep)
   for (bool walls : {false, true}) {
     const Grid grid{{8, 6, 8}, {0, 0, 0}, {0.5, 0.6, 0.7}, walls};
     const auto gain = [&](double dt) {
-      Flow flow(grid, even(grid, {1, 1, ranks()}), 1, Regime{1e-12, density, Inertia::convective});
+      ForcedFlow flow(grid, even(grid, {1, 1, ranks()}), 1,
+                      FlowEquations{1e-12, density, Inertia::convective});
       set_noise_velocity(flow, 3, 1);
-      const double before = measure(flow).kinetic_energy_per_density;
+      const double before = flow.diagnose().kinetic_energy_per_density;
       for (double t = 0; t < 1 - dt / 2; t += dt) step(flow, dt);
-      return measure(flow).kinetic_energy_per_density / before - 1;
+      return flow.diagnose().kinetic_energy_per_density / before - 1;
     };
     const double coarse = gain(1.0 / 80), fine = gain(1.0 / 160);
     EXPECT_NEAR(order(coarse, fine), 2, 0.1) << describe(grid);

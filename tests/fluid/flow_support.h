@@ -1,6 +1,5 @@
 #pragma once
 
-#include "fluid/flow.h"
 #include "test_support.h"
 
 namespace test {
@@ -28,7 +27,7 @@ inline void set_noise_force(Flow &flow, int seed, double amplitude = 1)
 {
   for (int c = 0; c < 3; ++c)
     set(flow.force()[c], flow.brick(), [&](int i, int j, int k) {
-      const bool on_plate = flow.grid().walls && c == 2 && k == 0;
+      const bool on_plate = flow.grid().plates && c == 2 && k == 0;
       return on_plate ? 0 : amplitude * noise(4 * seed + c, i, j, k);
     });
 }
@@ -36,7 +35,7 @@ inline void set_noise_force(Flow &flow, int seed, double amplitude = 1)
 /// A velocity without divergence: the steady flow of a noisy force density.
 inline void set_noise_velocity(Flow &flow, int seed, double amplitude)
 {
-  Flow steady(flow.grid(), flow.decomposition(), 1, Regime{1});
+  ForcedFlow steady(flow.grid(), flow.decomposition(), 1, FlowEquations{1});
   set_noise_force(steady, seed);
   steady.solve();
   const VectorField &u = steady.velocity();
@@ -49,26 +48,26 @@ inline void set_noise_velocity(Flow &flow, int seed, double amplitude)
 }
 
 /// A step, with all that drives the flow in its middle the mean of its start and its end.
-inline void step_to(Flow &flow, double dt, const Drive &end)
+inline void step_to(ForcedFlow &flow, double dt, const Forcing &end)
 {
-  const Drive start = flow.drive;
-  flow.drive = end;
-  const auto middle = [](const Vec3 &a, const Vec3 &b) {
-    return Vec3{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
+  const Forcing start = flow.forcing;
+  flow.forcing = end;
+  const auto middle = [](const Real3 &a, const Real3 &b) {
+    return Real3{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
   };
-  flow.drive.walls = {middle(start.walls.lower, end.walls.lower),
-                      middle(start.walls.upper, end.walls.upper)};
-  flow.drive.body = middle(start.body, end.body);
-  flow.drive.mean = middle(start.mean, end.mean);
+  flow.forcing.plates = {middle(start.plates.lower, end.plates.lower),
+                         middle(start.plates.upper, end.plates.upper)};
+  flow.forcing.body = middle(start.body, end.body);
+  flow.forcing.mean = middle(start.mean, end.mean);
   flow.start_step(dt);
-  flow.share_velocity();
-  flow.drive = end;
+  flow.fill_ghosts();
+  flow.forcing = end;
   flow.finish_step();
 }
 
-inline void step(Flow &flow, double dt)
+inline void step(ForcedFlow &flow, double dt)
 {
-  step_to(flow, dt, flow.drive);
+  step_to(flow, dt, flow.forcing);
 }
 
 }    // namespace test

@@ -1,6 +1,6 @@
 // Whole steps around point forces: balance of forces, mobilities, layouts of ranks, measures.
 
-#include "fluid/measures.h"
+#include "fluid/diagnostics.h"
 #include "test_support.h"
 
 using namespace test;
@@ -28,22 +28,23 @@ double height(const Grid &grid)
   return grid.spacing[2] * grid.cells[2];
 }
 
-void drive(Flow &flow)
+void drive(ForcedFlow &flow)
 {
-  flow.drive.walls = {{0.2, -0.3, 0}, {0.5, 0.1, 0}};
-  flow.drive.body = {0.04, 0.02, -0.05};
+  flow.forcing.plates = {{0.2, -0.3, 0}, {0.5, 0.1, 0}};
+  flow.forcing.body = {0.04, 0.02, -0.05};
 }
 
 /// One step; velocities of this rank's markers.
-std::vector<Vec3> step(Flow &flow, const Points &points, KernelKind kernel = KernelKind::peskin4)
+std::vector<Real3> step(ForcedFlow &flow, const Points &points,
+                        KernelKind kernel = KernelKind::peskin4)
 {
   flow.clear_force();
-  EXPECT_EQ(flow.spread(kernel, points.markers(), points.x(), points.f(), 1), -1);
-  flow.gather_force();
+  EXPECT_EQ(flow.spread(points.markers(kernel), points.f(), 1), -1);
+  flow.accumulate_ghosts();
   flow.solve();
-  flow.share_velocity();
-  std::vector<Vec3> velocity(points.count(), {undefined, undefined, undefined});
-  flow.interpolate(kernel, points.markers(), points.x(), numbers(velocity));
+  flow.fill_ghosts();
+  std::vector<Real3> velocity(points.count(), {undefined, undefined, undefined});
+  flow.interpolate(points.markers(kernel), numbers(velocity));
   return velocity;
 }
 
@@ -54,18 +55,18 @@ TEST(Flow, PlatesBearTheForces)
   const Grid grid = plates();
   for (const auto &[name, decomposition] : layouts(grid)) {
     SCOPED_TRACE(name);
-    Flow flow(grid, decomposition, width, Regime{viscosity});
+    ForcedFlow flow(grid, decomposition, width, FlowEquations{viscosity});
     drive(flow);
     Points points = scatter(grid, 80, 1);
     assign(points, grid, decomposition);
     step(flow, points);
-    const FlowMeasures measures = measure(flow);
+    const FlowDiagnostics measures = flow.diagnose();
 
-    const Walls &walls = flow.drive.walls;
+    const PlateVelocities &walls = flow.forcing.plates;
     for (int c = 0; c < 3; ++c) {
       const double friction =
           viscosity * (walls.upper[c] - walls.lower[c]) / height(grid) * area(grid);
-      const double weight = flow.drive.body[c] * height(grid) * area(grid);
+      const double weight = flow.forcing.body[c] * height(grid) * area(grid);
       double lower = friction + weight / 2, upper = -friction + weight / 2;
       for (int n = 0; n < points.count(); ++n) {
         const double zeta = (points.position[n][2] - grid.origin[2]) / height(grid);
@@ -85,11 +86,11 @@ TEST(Flow, PlatesBearTheForces)
 TEST(Flow, AColumnAtRestWeighsOnThePlates)
 {
   const Grid grid = plates();
-  Flow flow(grid, even(grid, {1, 1, ranks()}), width, Regime{viscosity});
+  ForcedFlow flow(grid, even(grid, {1, 1, ranks()}), width, FlowEquations{viscosity});
   const double g = -0.8;
-  flow.drive.body = {0, 0, g};
+  flow.forcing.body = {0, 0, g};
   step(flow, {});
-  const FlowMeasures measures = measure(flow);
+  const FlowDiagnostics measures = flow.diagnose();
   EXPECT_NEAR(measures.lower_traction[2], g * height(grid) / 2, 1e-13);
   EXPECT_NEAR(measures.upper_traction[2], g * height(grid) / 2, 1e-13);
   EXPECT_EQ(measures.max_speed, 0);
@@ -107,16 +108,16 @@ TEST(Flow, EveryLayoutOfRanksGivesTheFlowOfOneRank)
 {
   for (const Grid &grid : {plates(), periodic()}) {
     Points points = scatter(grid, 60, 2);
-    Flow reference(grid, alone(grid), width, Regime{viscosity});
+    ForcedFlow reference(grid, alone(grid), width, FlowEquations{viscosity});
     drive(reference);
     assign(points, grid, alone(grid));
     const auto expected = step(reference, points);
-    const FlowMeasures whole = measure(reference);
+    const FlowDiagnostics whole = reference.diagnose();
     const ScalarField &expected_pressure = reference.pressure();
 
     for (const auto &[name, decomposition] : layouts(grid)) {
       SCOPED_TRACE(describe(grid) + ", " + name);
-      Flow flow(grid, decomposition, width, Regime{viscosity});
+      ForcedFlow flow(grid, decomposition, width, FlowEquations{viscosity});
       drive(flow);
       assign(points, grid, decomposition);
       const auto velocity = step(flow, points);
@@ -135,7 +136,7 @@ TEST(Flow, EveryLayoutOfRanksGivesTheFlowOfOneRank)
       EXPECT_LT(of_pressure.over_ranks().largest,
                 1e-12 * viscosity * whole.max_speed / grid.spacing[2]);
 
-      const FlowMeasures measures = measure(flow);
+      const FlowDiagnostics measures = flow.diagnose();
       EXPECT_NEAR(measures.kinetic_energy_per_density, whole.kinetic_energy_per_density,
                   1e-12 * whole.kinetic_energy_per_density);
       EXPECT_NEAR(measures.max_speed, whole.max_speed, 1e-12 * whole.max_speed);
@@ -153,11 +154,11 @@ TEST(Flow, EveryLayoutOfRanksGivesTheFlowOfOneRank)
 TEST(Flow, MeasuresCouetteFlow)
 {
   const Grid grid = plates();
-  Flow flow(grid, even(grid, {1, 1, ranks()}), width, Regime{viscosity});
-  const Walls walls{{-0.2, 0.1, 0}, {0.6, 0.5, 0}};
-  flow.drive.walls = walls;
+  ForcedFlow flow(grid, even(grid, {1, 1, ranks()}), width, FlowEquations{viscosity});
+  const PlateVelocities walls{{-0.2, 0.1, 0}, {0.6, 0.5, 0}};
+  flow.forcing.plates = walls;
   step(flow, {});
-  const FlowMeasures measures = measure(flow);
+  const FlowDiagnostics measures = flow.diagnose();
   double energy = 0, fastest = 0;
   for (int k = 0; k < grid.cells[2]; ++k) {
     double square = 0;
@@ -182,11 +183,11 @@ TEST(Flow, MeasuresCouetteFlow)
 TEST(Flow, MeasuresDivergence)
 {
   const Grid grid = periodic();
-  Flow flow(grid, even(grid, {1, 1, ranks()}), width, Regime{viscosity});
+  ForcedFlow flow(grid, even(grid, {1, 1, ranks()}), width, FlowEquations{viscosity});
   step(flow, {});
   if (flow.brick().contains({3, 2, 5})) flow.velocity()[1](3, 2, 5) = 0.4;
-  flow.share_velocity();
-  const FlowMeasures measures = measure(flow);
+  flow.fill_ghosts();
+  const FlowDiagnostics measures = flow.diagnose();
   const double smallest = *std::min_element(grid.spacing.begin(), grid.spacing.end());
   EXPECT_NEAR(measures.max_speed, 0.2, 1e-15);
   EXPECT_NEAR(measures.max_divergence, 0.4 / grid.spacing[1] * smallest / 0.2, 1e-14);
@@ -197,14 +198,14 @@ TEST(Flow, MeasuresDivergence)
 TEST(Flow, MarkersMoveWithCouetteFlowUpToThePlates)
 {
   const Grid grid = plates();
-  const Walls walls{{-0.2, 0.1, 0}, {0.6, 0.5, 0}};
+  const PlateVelocities walls{{-0.2, 0.1, 0}, {0.6, 0.5, 0}};
   Points points = scatter(grid, 80, 5);
   points.force.assign(points.count(), {0, 0, 0});
   for (const auto &[name, decomposition] : layouts(grid)) {
     SCOPED_TRACE(name);
     assign(points, grid, decomposition);
-    Flow flow(grid, decomposition, width, Regime{viscosity});
-    flow.drive.walls = walls;
+    ForcedFlow flow(grid, decomposition, width, FlowEquations{viscosity});
+    flow.forcing.plates = walls;
     const auto velocity = step(flow, points);
     Error error;
     for (int n : points.index)
@@ -220,13 +221,13 @@ TEST(Flow, MarkersMoveWithCouetteFlowUpToThePlates)
 TEST(Flow, MeasuresPoiseuilleFlow)
 {
   const Grid grid = plates();
-  Flow flow(grid, even(grid, {1, 1, ranks()}), width, Regime{viscosity});
-  flow.drive.body = {0.6, -0.4, 0};
+  ForcedFlow flow(grid, even(grid, {1, 1, ranks()}), width, FlowEquations{viscosity});
+  flow.forcing.body = {0.6, -0.4, 0};
   step(flow, {});
-  const FlowMeasures measures = measure(flow);
+  const FlowDiagnostics measures = flow.diagnose();
   const double h = grid.spacing[2], square = height(grid) * height(grid) / 6 + h * h / 3;
   for (int c = 0; c < 3; ++c) {
-    const double body = flow.drive.body[c];
+    const double body = flow.forcing.body[c];
     EXPECT_NEAR(measures.mean_velocity[c], body / (2 * viscosity) * square, 1e-13);
     EXPECT_NEAR(measures.lower_traction[c], body * height(grid) / 2, 1e-13);
     EXPECT_NEAR(measures.upper_traction[c], body * height(grid) / 2, 1e-13);
@@ -237,20 +238,20 @@ TEST(Flow, AStepLeavesNoTraceInTheNext)
 {
   for (const Grid &grid : {plates(), periodic()}) {
     const Decomposition decomposition = even(grid, {1, ranks(), 1});
-    Flow flow(grid, decomposition, width, Regime{viscosity});
+    ForcedFlow flow(grid, decomposition, width, FlowEquations{viscosity});
     Points points = scatter(grid, 30, 3), others = scatter(grid, 50, 4);
     assign(points, grid, decomposition);
     assign(others, grid, decomposition);
     const auto first = step(flow, points);
-    const FlowMeasures measures = measure(flow);
+    const FlowDiagnostics measures = flow.diagnose();
     drive(flow);
     step(flow, others);
     flow.pressure();
-    flow.drive = {};
+    flow.forcing = {};
     const auto second = step(flow, points);
     for (int n : points.index) EXPECT_EQ(first[n], second[n]);
-    EXPECT_EQ(measures.lower_traction, measure(flow).lower_traction);
-    EXPECT_EQ(measures.upper_traction, measure(flow).upper_traction);
+    EXPECT_EQ(measures.lower_traction, flow.diagnose().lower_traction);
+    EXPECT_EQ(measures.upper_traction, flow.diagnose().upper_traction);
   }
 }
 
@@ -259,15 +260,15 @@ TEST(Flow, IsReciprocalNearAPlate)
 {
   const Grid grid = plates();
   const Decomposition decomposition = even(grid, {1, 1, ranks()});
-  Flow flow(grid, decomposition, width, Regime{viscosity});
+  ForcedFlow flow(grid, decomposition, width, FlowEquations{viscosity});
   for (KernelKind kernel : {KernelKind::peskin4, KernelKind::roma3})
     for (double s : {0.1, 0.6, 1.3, 7.2}) {
       std::array<double, 2> work{}, own{};
-      const std::array<Vec3, 2> force{Vec3{0.4, -0.9, 0.5}, Vec3{-0.2, 0.3, 0.8}};
+      const std::array<Real3, 2> force{Real3{0.4, -0.9, 0.5}, Real3{-0.2, 0.3, 0.8}};
       for (int source = 0; source < 2; ++source) {
         Points points;
-        for (const Vec3 &x : {Vec3{5.2, 4.9, s}, Vec3{7.7, 3.1, 1.8}}) {
-          Vec3 position;
+        for (const Real3 &x : {Real3{5.2, 4.9, s}, Real3{7.7, 3.1, 1.8}}) {
+          Real3 position;
           for (int d = 0; d < 3; ++d) position[d] = grid.origin[d] + grid.spacing[d] * x[d];
           points.position.push_back(position);
           points.force.push_back({0, 0, 0});
@@ -291,11 +292,11 @@ TEST(Flow, IsReciprocalNearAPlate)
 /// Hydrodynamic radius of a marker in units of the spacing, from its velocity in a periodic cube of
 /// n^3 cells (Hasimoto, J. Fluid Mech. 5 (1959) 317),
 ///   U = F / (6 pi mu a) (1 - 2.837297 a/L + 4 pi/3 (a/L)^3 - 27.4 (a/L)^6).
-double radius(KernelKind kernel, int n, const Vec3 &place)
+double radius(KernelKind kernel, int n, const Real3 &place)
 {
   const Grid grid{{n, n, n}, {0, 0, 0}, {1, 1, 1}, false};
   const Decomposition decomposition = even(grid, {1, 1, ranks()});
-  Flow flow(grid, decomposition, width, Regime{viscosity});
+  ForcedFlow flow(grid, decomposition, width, FlowEquations{viscosity});
   Points points;
   points.position = {place};
   points.force = {{1, 0, 0}};
@@ -315,7 +316,7 @@ double radius(KernelKind kernel, int n, const Vec3 &place)
 /// al., J. Chem. Phys. 140 (2014) 134110); they vary by a few per cent with the place.
 void expect_radius(KernelKind kernel, double expected, double variation)
 {
-  for (const Vec3 &place : {Vec3{3.0, 4.0, 5.0}, Vec3{3.3, 4.1, 5.8}, Vec3{3.5, 4.5, 5.5}}) {
+  for (const Real3 &place : {Real3{3.0, 4.0, 5.0}, Real3{3.3, 4.1, 5.8}, Real3{3.5, 4.5, 5.5}}) {
     const double small = radius(kernel, 16, place), large = radius(kernel, 32, place);
     EXPECT_NEAR(small, large, 0.01 * large);
     EXPECT_NEAR(large, expected, variation * expected);
@@ -334,7 +335,7 @@ TEST(Flow, AMarkerOfRoma3HasARadius)
 TEST(Flow, SendsNothingOnOneRank)
 {
   for (const Grid &grid : {plates(), periodic()}) {
-    Flow flow(grid, alone(grid), width, Regime{viscosity});
+    ForcedFlow flow(grid, alone(grid), width, FlowEquations{viscosity});
     Points points = scatter(grid, 8, 1);
     assign(points, grid, alone(grid));
     step(flow, points);

@@ -11,7 +11,7 @@ Grid grid_of(bool walls)
   return {{12, 10, 8}, {0, 0, 0}, {0.5, 0.4, 0.3}, walls};
 }
 
-Regime regime(Inertia inertia, Scheme scheme = Scheme::coupled)
+FlowEquations equations(Inertia inertia, Scheme scheme = Scheme::coupled)
 {
   return {0.7, 1.3, inertia, scheme};
 }
@@ -34,11 +34,11 @@ TEST(Memory, GrowsByAFieldForEachThingToRemember)
   for_each_layout([](const Grid &grid, const Decomposition &decomposition) {
     const std::size_t field = 3 * sizeof(double) * Halo(grid, decomposition, 1).box().size();
     const std::size_t brick = 3 * sizeof(double) * decomposition.mine().size();
-    std::size_t expected = Flow(grid, decomposition, 0, regime(Inertia::none)).bytes();
+    std::size_t expected = ForcedFlow(grid, decomposition, 0, equations(Inertia::none)).bytes();
     for (Inertia inertia : regimes) {
-      Flow bare(grid, decomposition, 0, regime(inertia));
+      ForcedFlow bare(grid, decomposition, 0, equations(inertia));
       EXPECT_EQ(bare.bytes(), expected);
-      EXPECT_EQ(Flow(grid, decomposition, 1, regime(inertia)).bytes(), expected + field);
+      EXPECT_EQ(ForcedFlow(grid, decomposition, 1, equations(inertia)).bytes(), expected + field);
       if (inertia != Inertia::none)
         for (int n = 0; n < 4; ++n) step(bare, 0.1);
       else
@@ -52,12 +52,13 @@ TEST(Memory, GrowsByAFieldForEachThingToRemember)
 TEST(Memory, OfAProjectionIsThePressureBetweenPlates)
 {
   for_each_layout([](const Grid &grid, const Decomposition &decomposition) {
-    double coupled = Flow(grid, decomposition, 0, regime(Inertia::unsteady)).bytes();
+    double coupled = ForcedFlow(grid, decomposition, 0, equations(Inertia::unsteady)).bytes();
     double projected =
-        Flow(grid, decomposition, 0, regime(Inertia::unsteady, Scheme::projection)).bytes();
+        ForcedFlow(grid, decomposition, 0, equations(Inertia::unsteady, Scheme::projection))
+            .bytes();
     reduce(MPI_SUM, coupled, projected);
     const int modes = (grid.cells[0] / 2 + 1) * grid.cells[1] * grid.cells[2];
-    EXPECT_EQ(projected - coupled, grid.walls ? modes * sizeof(std::complex<double>) : 0);
+    EXPECT_EQ(projected - coupled, grid.plates ? modes * sizeof(std::complex<double>) : 0);
   });
 }
 
@@ -65,7 +66,7 @@ TEST(Memory, OfPressureAndResponsesComesWithTheFirstUse)
 {
   for_each_layout([](const Grid &grid, const Decomposition &decomposition) {
     const std::size_t scalar = sizeof(double) * Halo(grid, decomposition, 2).box().size();
-    const auto added = [](Flow &flow, const auto &use) {
+    const auto added = [](ForcedFlow &flow, const auto &use) {
       const std::size_t before = flow.bytes();
       use();
       const std::size_t once = flow.bytes();
@@ -74,11 +75,10 @@ TEST(Memory, OfPressureAndResponsesComesWithTheFirstUse)
       return once - before;
     };
     for (Inertia inertia : {Inertia::unsteady, Inertia::convective}) {
-      Flow flow(grid, decomposition, 2, regime(inertia));
+      ForcedFlow flow(grid, decomposition, 2, equations(inertia));
       step(flow, 0.1);
-      EXPECT_EQ(
-          added(flow, [&] { flow.respond(KernelKind::roma3, {}, nullptr, nullptr, nullptr); }),
-          6 * scalar);
+      EXPECT_EQ(added(flow, [&] { flow.apply_mobility({KernelKind::roma3}, nullptr, nullptr); }),
+                6 * scalar);
       const std::size_t rhs =
           inertia == Inertia::unsteady ? 3 * sizeof(double) * decomposition.mine().size() : 0;
       double modes = added(flow, [&] { flow.pressure(); }) - scalar - rhs;
@@ -102,7 +102,7 @@ struct Sent {
   }
 };
 
-template <typename Work> Sent sent(const Flow &flow, Work work)
+template <typename Work> Sent sent(const ForcedFlow &flow, Work work)
 {
   const Traffic before = flow.traffic();
   work();
@@ -114,12 +114,12 @@ template <typename Work> Sent sent(const Flow &flow, Work work)
 TEST(Traffic, OfAStepWithoutMarkers)
 {
   for_each_layout([](const Grid &grid, const Decomposition &decomposition) {
-    Flow steady(grid, decomposition, 0, regime(Inertia::none));
+    ForcedFlow steady(grid, decomposition, 0, equations(Inertia::none));
     const Sent solve = sent(steady, [&] { steady.solve(); });
-    const Sent ghosts = sent(steady, [&] { steady.share_velocity(); });
-    EXPECT_EQ(sent(steady, [&] { steady.share_velocity(); }), (Sent{0, 0}));
+    const Sent ghosts = sent(steady, [&] { steady.fill_ghosts(); });
+    EXPECT_EQ(sent(steady, [&] { steady.fill_ghosts(); }), (Sent{0, 0}));
     for (Inertia inertia : {Inertia::unsteady, Inertia::convective}) {
-      Flow flow(grid, decomposition, 0, regime(inertia));
+      ForcedFlow flow(grid, decomposition, 0, equations(inertia));
       for (int n = 0; n < 4; ++n) {
         Sent expected = n < 2 ? solve + solve : solve;
         if (inertia == Inertia::convective) expected = expected + ghosts;

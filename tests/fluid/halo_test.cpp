@@ -1,4 +1,4 @@
-// Ghost layers: what fill puts into them, that add_back is its transpose, and messages sent.
+// Ghost layers: what fill puts into them, that accumulate is its transpose, and messages sent.
 
 #include "fluid/halo.h"
 #include "test_support.h"
@@ -24,7 +24,7 @@ int wrap(int i, int n)
 
 bool beyond_plate(const Grid &grid, int k)
 {
-  return grid.walls && (k < 0 || k >= grid.cells[2]);
+  return grid.plates && (k < 0 || k >= grid.cells[2]);
 }
 
 /// Rank that owns the cell of which (i, j, k) is an image.
@@ -55,7 +55,7 @@ TEST(Halo, StoresTheBrickAndItsGhosts)
       return;
     }
     for (int d = 0; d < 3; ++d) {
-      const bool closed = d == 2 && grid.walls;
+      const bool closed = d == 2 && grid.plates;
       const int lowest = brick.lo[d] - width, highest = brick.hi[d] + width;
       if (closed) {
         EXPECT_GE(halo.box().lo[d], lowest);
@@ -84,7 +84,7 @@ TEST(Halo, FillGivesEveryGhostTheValueOfItsOwner)
       for_each(halo.box(), [&](int i, int j, int k) {
         const double value = field[c](i, j, k);
         const double expected = noise(c, wrap(i, grid.cells[0]), wrap(j, grid.cells[1]),
-                                      grid.walls ? k : wrap(k, grid.cells[2]));
+                                      grid.plates ? k : wrap(k, grid.cells[2]));
         wrong += beyond_plate(grid, k) ? !std::isnan(value) : value != expected;
       });
     EXPECT_EQ(wrong, 0);
@@ -105,7 +105,7 @@ TEST(Halo, AddBackIsTheTransposeOfFill)
       set(summed[c], halo.box(), value);
     }
     halo.fill(filled.views());
-    halo.add_back(summed.views());
+    halo.accumulate(summed.views());
     double left = dot(filled, b, halo.box()), right = dot(a, summed, brick);
     double square_a = dot(filled, filled, halo.box()), square_b = dot(b, b, halo.box());
     reduce(MPI_SUM, left, right, square_a, square_b);
@@ -131,7 +131,7 @@ TEST(Halo, SendsOneMessageToEachRankThatMirrorsItsCells)
     VectorField field(halo.box());
     halo.fill(field.views());
     EXPECT_EQ(halo.traffic().messages, readers);
-    halo.add_back(field.views());
+    halo.accumulate(field.views());
     EXPECT_EQ(halo.traffic().messages, readers + owners);
     EXPECT_EQ(halo.traffic().bytes > 0, readers + owners > 0);
   });

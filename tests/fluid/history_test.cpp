@@ -1,7 +1,7 @@
 // A flow goes on from its saved history, and on other bricks.
 
 #include "flow_support.h"
-#include "fluid/measures.h"
+#include "fluid/diagnostics.h"
 
 using namespace test;
 
@@ -9,7 +9,7 @@ namespace {
 
 struct Case {
   std::string name;
-  Regime regime;
+  FlowEquations equations;
   bool walls;
 };
 
@@ -32,12 +32,12 @@ Grid grid_of(const Case &which)
 }
 
 /// Steps of different lengths under plates, a body force and perhaps forces that change.
-void go_on(Flow &flow, int first, int last, bool forces = true)
+void go_on(ForcedFlow &flow, int first, int last, bool forces = true)
 {
   for (int n = first; n < last; ++n) {
     if (forces) set_noise_force(flow, n);
-    Drive end;
-    end.walls = {{0.3 * noise(n, 0), 0.2, 0}, {0.3 * noise(n, 1), -0.1, 0}};
+    Forcing end;
+    end.plates = {{0.3 * noise(n, 0), 0.2, 0}, {0.3 * noise(n, 1), -0.1, 0}};
     end.body = {noise(n, 2), noise(n, 3), noise(n, 4)};
     step_to(flow, 0.05 * (2 + noise(n, 5)), end);
   }
@@ -48,20 +48,20 @@ struct State {
   ScalarField pressure;
 };
 
-State state(Flow &flow)
+State state(ForcedFlow &flow)
 {
   return {copy(flow.velocity(), flow.brick()), copy(flow.pressure(), flow.brick())};
 }
 
 /// Largest difference of velocity and pressure.
-double distance(Flow &flow, const State &expected)
+double distance(ForcedFlow &flow, const State &expected)
 {
   return std::max(difference(flow.velocity(), expected.velocity, flow.brick()).largest,
                   difference(flow.pressure(), expected.pressure, flow.brick()).largest);
 }
 
 /// What rank 0 has of a flow's history, on all ranks.
-std::vector<double> saved(Flow &flow)
+std::vector<double> saved(ForcedFlow &flow)
 {
   std::vector<double> history = flow.history();
   EXPECT_EQ(history.size(), rank() == 0 ? flow.history_length() : 0);
@@ -78,18 +78,19 @@ TEST(History, RestoredGoesOnBitForBit)
       SCOPED_TRACE(which.name + ", " + std::to_string(until) + " steps");
       const Grid grid = grid_of(which);
       const Decomposition decomposition = even(grid, {1, ranks(), 1});
-      Flow flow(grid, decomposition, 2, which.regime), fresh(grid, decomposition, 2, which.regime),
-          used(grid, decomposition, 2, which.regime);
+      ForcedFlow flow(grid, decomposition, 2, which.equations),
+          fresh(grid, decomposition, 2, which.equations),
+          used(grid, decomposition, 2, which.equations);
       go_on(flow, 0, until);
       go_on(used, 20, 23);
       const std::vector<double> history = saved(flow);
-      for (Flow *other : {&fresh, &used}) {
+      for (ForcedFlow *other : {&fresh, &used}) {
         other->restore(history.data());
-        other->drive = flow.drive;
+        other->forcing = flow.forcing;
       }
       go_on(flow, until, until + 3);
       const State expected = state(flow);
-      for (Flow *other : {&fresh, &used}) {
+      for (ForcedFlow *other : {&fresh, &used}) {
         go_on(*other, until, until + 3);
         EXPECT_EQ(distance(*other, expected), 0);
       }
@@ -100,18 +101,18 @@ TEST(History, OfOneRankGoesOnInEveryLayout)
 {
   for (const Case &which : cases()) {
     const Grid grid = grid_of(which);
-    Flow flow(grid, alone(grid), 2, which.regime);
+    ForcedFlow flow(grid, alone(grid), 2, which.equations);
     go_on(flow, 0, 3);
     const std::vector<double> history = flow.history();
     ASSERT_EQ(history.size(), flow.history_length());
-    const Drive drive = flow.drive;
+    const Forcing drive = flow.forcing;
     go_on(flow, 3, 6);
     const State expected = state(flow);
     for (const auto &[name, decomposition] : layouts(grid)) {
       SCOPED_TRACE(which.name + ", " + name);
-      Flow other(grid, decomposition, 2, which.regime);
+      ForcedFlow other(grid, decomposition, 2, which.equations);
       other.restore(history.data());
-      other.drive = drive;
+      other.forcing = drive;
       go_on(other, 3, 6);
       EXPECT_LT(distance(other, expected), 1e-12);
       const std::vector<double> again = saved(other);
@@ -123,7 +124,7 @@ TEST(History, OfOneRankGoesOnInEveryLayout)
 TEST(History, IsEmptyWithoutInertia)
 {
   const Grid grid = grid_of({"", {}, true});
-  Flow flow(grid, even(grid, {1, 1, ranks()}), 1, Regime{0.7});
+  ForcedFlow flow(grid, even(grid, {1, 1, ranks()}), 1, FlowEquations{0.7});
   EXPECT_EQ(flow.history_length(), 0);
   EXPECT_TRUE(flow.history().empty());
 }
@@ -134,7 +135,7 @@ TEST(TakeOver, GoesOnOnOtherBricks)
   for (const Case &which : cases())
     for (bool markers : {true, false}) {
       const Grid grid = grid_of(which);
-      Flow reference(grid, alone(grid), 2, which.regime);
+      ForcedFlow reference(grid, alone(grid), 2, which.equations);
       std::vector<State> expected;
       const int steps = static_cast<int>(layouts(grid).size()) + 2;
       for (int n = 0; n < steps; ++n) {
@@ -142,14 +143,15 @@ TEST(TakeOver, GoesOnOnOtherBricks)
         expected.push_back(state(reference));
       }
 
-      auto flow =
-          std::make_unique<Flow>(grid, even(grid, {1, 1, ranks()}), markers ? 2 : 0, which.regime);
+      auto flow = std::make_unique<ForcedFlow>(grid, even(grid, {1, 1, ranks()}), markers ? 2 : 0,
+                                               which.equations);
       go_on(*flow, 0, 1, markers);
       int n = 1;
       for (const auto &[name, decomposition] : layouts(grid)) {
         SCOPED_TRACE(which.name + ", to " + name + (markers ? "" : ", without markers at first"));
-        auto next = std::make_unique<Flow>(grid, decomposition, 1 + n % 3, which.regime);
+        auto next = std::make_unique<ForcedFlow>(grid, decomposition, 1 + n % 3, which.equations);
         next->take_over(*flow);
+        next->forcing = flow->forcing;
         EXPECT_LT(distance(*next, expected[n - 1]), 1e-12);
         go_on(*next, n, n + 1);
         EXPECT_LT(distance(*next, expected[n]), 1e-12);
@@ -162,11 +164,11 @@ TEST(TakeOver, GoesOnOnOtherBricks)
 TEST(TakeOver, KeepsASteadyFlow)
 {
   const Grid grid = grid_of({"", {}, true});
-  Flow flow(grid, even(grid, {1, 1, ranks()}), 2, Regime{0.7});
+  ForcedFlow flow(grid, even(grid, {1, 1, ranks()}), 2, FlowEquations{0.7});
   set_noise_force(flow, 1);
   flow.solve();
   const State expected = state(flow);
-  Flow other(grid, even(grid, {1, 1, ranks()}), 3, Regime{0.7});
+  ForcedFlow other(grid, even(grid, {1, 1, ranks()}), 3, FlowEquations{0.7});
   other.take_over(flow);
   EXPECT_EQ(distance(other, expected), 0);
 }

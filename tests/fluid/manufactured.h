@@ -8,7 +8,7 @@ namespace test {
 struct Jet {
   double value = 0;
   std::array<double, 4> slope{};
-  Vec3 curvature{};
+  Real3 curvature{};
 
   Jet(double value = 0) : value(value) {}
   static Jet variable(int direction, double value)
@@ -62,19 +62,19 @@ struct Jet {
 /// z = height (no slip), or triply periodic.
 struct Manufactured {
   bool walls = true;
-  Vec3 size{1, 1.25, 0.8};
+  Real3 size{1, 1.25, 0.8};
   double viscosity = 0.05, density = 1.3;
   Inertia inertia = Inertia::convective;
 
-  double velocity(int c, const Vec3 &x, double t) const
+  double velocity(int c, const Real3 &x, double t) const
   {
     return velocity(std::array<double, 3>{x[0], x[1], x[2]}, t)[c];
   }
-  double pressure(const Vec3 &x, double t) const { return pressure<double>(x, t); }
-  Vec3 plate(bool upper, double t) const { return plate<double>(upper, t); }
+  double pressure(const Real3 &x, double t) const { return pressure<double>(x, t); }
+  Real3 plate(bool upper, double t) const { return plate<double>(upper, t); }
 
   /// density (du/dt + u . grad u) + grad p - viscosity lap u
-  double force(int c, const Vec3 &x, double t) const
+  double force(int c, const Real3 &x, double t) const
   {
     const std::array<Jet, 3> at{Jet::variable(0, x[0]), Jet::variable(1, x[1]),
                                 Jet::variable(2, x[2])};
@@ -144,23 +144,23 @@ class Follower {
            Scheme scheme = Scheme::coupled) :
       exact_(exact),
       flow_(exact.grid(cells), decomposition, 1,
-            Regime{exact.viscosity, exact.density, exact.inertia, scheme, exact.walls})
+            FlowEquations{exact.viscosity, exact.density, exact.inertia, scheme, exact.walls})
   {
     flow_.set_velocity([&](int c, int i, int j, int k) {
       return exact_.velocity(c, location(flow_.grid(), c, i, j, k), 0);
     });
-    flow_.drive = drive(0);
+    flow_.forcing = forcing(0);
   }
 
-  Flow &flow() { return flow_; }
+  ForcedFlow &flow() { return flow_; }
   double time() const { return time_; }
 
   void step(double dt)
   {
     const double end = time_ + dt;
     set_vector(flow_.force(), flow_.grid(), flow_.brick(),
-               [&](int c, const Vec3 &x) { return exact_.force(c, x, time_ + 0.5 * dt); });
-    step_to(flow_, dt, drive(end));
+               [&](int c, const Real3 &x) { return exact_.force(c, x, time_ + 0.5 * dt); });
+    step_to(flow_, dt, forcing(end));
     time_ = end;
   }
 
@@ -188,15 +188,15 @@ class Follower {
   }
 
  private:
-  Drive drive(double t) const
+  Forcing forcing(double t) const
   {
-    Drive drive;
-    drive.walls = {exact_.plate(false, t), exact_.plate(true, t)};
-    return drive;
+    Forcing forcing;
+    forcing.plates = {exact_.plate(false, t), exact_.plate(true, t)};
+    return forcing;
   }
 
   const Manufactured &exact_;
-  Flow flow_;
+  ForcedFlow flow_;
   double time_ = 0;
 };
 

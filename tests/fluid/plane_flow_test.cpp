@@ -1,7 +1,7 @@
 // Plane flows between plates that start or oscillate, against their exact solutions.
 
 #include "flow_support.h"
-#include "fluid/measures.h"
+#include "fluid/diagnostics.h"
 
 #include <complex>
 #include <functional>
@@ -17,15 +17,16 @@ using Profile = std::function<double(double z, double t)>;
 
 /// Error of the velocity along x after n steps from time 0, on a grid with n cells from plate to plate.
 double error(int n, double duration, const Profile &exact,
-             const std::function<Drive(double t)> &drive)
+             const std::function<Forcing(double t)> &forcing)
 {
   const Grid grid{{4, 4, n}, {0, 0, 0}, {0.1, 0.1, height / n}, true};
-  Flow flow(grid, even(grid, {1, 1, ranks()}), 0, Regime{viscosity, density, Inertia::unsteady});
+  ForcedFlow flow(grid, even(grid, {1, 1, ranks()}), 0,
+                  FlowEquations{viscosity, density, Inertia::unsteady});
   flow.set_velocity([&](int c, int i, int j, int k) {
     return c == 0 ? exact(location(grid, c, i, j, k)[2], 0) : 0;
   });
-  flow.drive = drive(0);
-  for (int step = 1; step <= n; ++step) step_to(flow, duration / n, drive(step * duration / n));
+  flow.forcing = forcing(0);
+  for (int step = 1; step <= n; ++step) step_to(flow, duration / n, forcing(step * duration / n));
   Error error;
   for_each(flow.brick(), [&](int i, int j, int k) {
     error.add(flow.velocity()[0](i, j, k) - exact(location(grid, 0, i, j, k)[2], duration));
@@ -45,9 +46,10 @@ TEST(PlaneFlow, OfAPlateThatStartsAtOnceIsOfSecondOrder)
     }
     return u;
   };
-  const auto drive = [](double) { return Drive{{{0, 0, 0}, {1, 0, 0}}, {}, {}}; };
+  const auto forcing = [](double) { return Forcing{{{0, 0, 0}, {1, 0, 0}}, {}, {}}; };
   const double duration = 0.1 * height * height / nu;
-  EXPECT_NEAR(order(error(32, duration, exact, drive), error(64, duration, exact, drive)), 2, 0.05);
+  EXPECT_NEAR(order(error(32, duration, exact, forcing), error(64, duration, exact, forcing)), 2,
+              0.05);
 }
 
 /// lambda^2 = i omega / nu
@@ -64,8 +66,8 @@ TEST(PlaneFlow, OfAnOscillatingPlateIsOfSecondOrder)
             std::polar(1.0, omega * t))
         .real();
   };
-  const auto drive = [](double t) { return Drive{{{std::cos(omega * t), 0, 0}, {}}, {}, {}}; };
-  EXPECT_NEAR(order(error(32, 1, exact, drive), error(64, 1, exact, drive)), 2, 0.05);
+  const auto forcing = [](double t) { return Forcing{{{std::cos(omega * t), 0, 0}, {}}, {}, {}}; };
+  EXPECT_NEAR(order(error(32, 1, exact, forcing), error(64, 1, exact, forcing)), 2, 0.05);
 }
 
 /// Womersley's flow between plates.
@@ -76,8 +78,8 @@ TEST(PlaneFlow, OfAnOscillatingForceIsOfSecondOrder)
         1.0 - std::cosh(lambda() * (z - height / 2)) / std::cosh(lambda() * (height / 2));
     return (shape * std::polar(1.0, omega * t) / std::complex<double>(0, density * omega)).real();
   };
-  const auto drive = [](double t) { return Drive{{}, {std::cos(omega * t), 0, 0}, {}}; };
-  EXPECT_NEAR(order(error(32, 1, exact, drive), error(64, 1, exact, drive)), 2, 0.05);
+  const auto forcing = [](double t) { return Forcing{{}, {std::cos(omega * t), 0, 0}, {}}; };
+  EXPECT_NEAR(order(error(32, 1, exact, forcing), error(64, 1, exact, forcing)), 2, 0.05);
 }
 
 }    // namespace

@@ -6,7 +6,7 @@
 namespace test {
 
 /// Rigid sphere of markers, about one to an area of spacing^2, on a spiral of golden angle.
-inline Points sphere(const Vec3 &centre, double radius, double spacing)
+inline Points sphere(const Real3 &centre, double radius, double spacing)
 {
   const int count = static_cast<int>(std::lround(4 * pi * radius * radius / (spacing * spacing)));
   const double turn = pi * (3 - std::sqrt(5.0));
@@ -29,17 +29,16 @@ struct Drag {
 inline Drag drag(const Grid &grid, KernelKind kernel, Points points, double tolerance = 1e-3)
 {
   constexpr int ghost_layers = 4;
-  Flow flow(grid, even(grid, {1, 1, ranks()}), ghost_layers, Regime{});
+  ForcedFlow flow(grid, even(grid, {1, 1, ranks()}), ghost_layers, FlowEquations{});
   assign(points, grid, flow.decomposition());
   const std::size_t numbers = 3 * points.position.size();
   std::vector<double> none(numbers), target(numbers), force(numbers), velocity(numbers);
   for (std::size_t n = 0; n < numbers; n += 3) target[n] = 1;
-  DirectForcing forcing;
-  forcing.tolerance = tolerance;
-  const auto outcome =
-      forcing.advance(flow, 0,
-                      {kernel, points.markers(), points.x(), none.data(), nullptr, target.data(),
-                       force.data(), velocity.data(), points.count()});
+  DirectForcing direct;
+  direct.tolerance = tolerance;
+  const auto outcome = direct.advance(flow, 0, {},
+                                      {points.markers(kernel), none.data(), nullptr, target.data(),
+                                       force.data(), velocity.data(), points.count()});
   double sum = 0;
   for (int n : points.index) sum += force[3 * n];
   return {test::sum(sum), points.count(), outcome.solves};

@@ -1,5 +1,5 @@
+#include "fluid/diagnostics.h"
 #include "fluid/kernel.h"
-#include "fluid/measures.h"
 #include "rigid_sphere.h"
 #include "rigid_tube.h"
 
@@ -12,7 +12,7 @@ constexpr double tight = 1e-8;
 
 /// A flow of unit viscosity with markers of rigid bodies.
 struct Scene {
-  Flow flow;
+  ForcedFlow flow;
   std::vector<Points> bodies;
   std::vector<double> position;
   RigidSurface surface;
@@ -21,13 +21,15 @@ struct Scene {
 
   Scene(const Grid &grid, const Decomposition &decomposition, KernelKind kernel,
         std::vector<Points> bodies, bool free_mean, double tolerance = tight) :
-      flow(grid, decomposition, ghost_layers, Regime{}),
+      flow(grid, decomposition, ghost_layers, FlowEquations{}),
       bodies(std::move(bodies)), kernel(kernel)
   {
-    surface.free_mean = free_mean;
-    surface.tolerance = tolerance;
-    surface.max_solves = 300;
-    if (tolerance < 1e-6) surface.most_directions = 300;
+    RigidSurface::Settings settings;
+    settings.free_mean = free_mean;
+    settings.tolerance = tolerance;
+    settings.max_solves = 300;
+    if (tolerance < 1e-6) settings.most_directions = 300;
+    surface.choose(settings);
     for (std::size_t b = 0; b < this->bodies.size(); ++b) {
       assign(this->bodies[b], grid, decomposition);
       const auto rows = rows_here(this->bodies[b].position, this->bodies[b]);
@@ -43,7 +45,7 @@ struct Scene {
   {
     const Grid &grid = flow.grid();
     flow.clear_force();
-    Vec3 total{0, 0, 0};
+    Real3 total{0, 0, 0};
     for (int c = 0; c < 3; ++c)
       set(flow.force()[c], flow.brick(), [&](int i, int j, int k) {
         const double f = body_force(c, location(grid, c, i, j, k));
@@ -51,21 +53,23 @@ struct Scene {
         return f;
       });
     for (std::size_t n = 0; n < body.size(); ++n) {
-      const Vec3 u = velocity(body[n]);
+      const Real3 u = velocity(body[n]);
       std::copy_n(u.data(), 3, surface.target() + 3 * n);
     }
     EXPECT_LT(surface.spread(flow, time, total), 0);
-    flow.gather_force();
+    flow.accumulate_ghosts();
+    if (surface.settings().free_mean) flow.forcing.mean = surface.mean();
     flow.solve();
     const auto outcome = surface.enforce(flow);
+    if (surface.settings().free_mean) flow.forcing.mean = surface.mean();
     EXPECT_TRUE(outcome.converged) << outcome.slip;
     return outcome;
   }
 
   /// On the fluid, by one body.
-  Vec3 force(int of)
+  Real3 force(int of)
   {
-    Vec3 sum{0, 0, 0};
+    Real3 sum{0, 0, 0};
     for (std::size_t n = 0; n < body.size(); ++n)
       for (int d = 0; d < 3; ++d)
         if (body[n] == of) sum[d] += surface.force()[3 * n + d];
@@ -74,8 +78,8 @@ struct Scene {
   }
 };
 
-constexpr auto no_force = [](int, const Vec3 &) { return 0.0; };
-constexpr auto at_rest = [](int) { return Vec3{0, 0, 0}; };
+constexpr auto no_force = [](int, const Real3 &) { return 0.0; };
+constexpr auto at_rest = [](int) { return Real3{0, 0, 0}; };
 
 /// Half the mean distance of two points spread by the kernel of a marker at s.
 template <typename Kernel> double offset(double s)
@@ -112,7 +116,7 @@ TEST(RigidSurface, MovingPlane)
       for (int i = 0; i < 16; ++i)
         for (int j = 0; j < 16; ++j) plane.position.push_back({i + 0.1, j + 0.7, z});
       Scene scene(grid, even(grid, {1, ranks(), 1}), kernel, {plane}, false);
-      const Vec3 velocity{1, 0.5, 0};
+      const Real3 velocity{1, 0.5, 0};
       scene.solve(no_force, [&](int) { return velocity; });
       const double both = 1 / z + 1 / (24 - z), s = z - 0.5;
       const double into_fluid =
@@ -129,7 +133,7 @@ TEST(RigidSurface, CarriesItsFluid)
   const Grid grid{{16, 16, 16}, {0, 0, 0}, {1, 1, 1}, false};
   const Points body = tube(grid, 5, 1.2);
   Scene scene(grid, even(grid, {1, ranks(), 1}), KernelKind::peskin4, {body}, true);
-  const auto outcome = scene.solve(no_force, [](int) { return Vec3{0.3, 0, -0.2}; });
+  const auto outcome = scene.solve(no_force, [](int) { return Real3{0.3, 0, -0.2}; });
   EXPECT_LT(outcome.slip, 1e-12);
   EXPECT_EQ(outcome.solves, 1);
   for_each(scene.flow.brick(), [&](int i, int j, int k) {
@@ -144,7 +148,7 @@ template <typename Radius> std::vector<double> flow_rates(const Scene &scene, Ra
   const Grid &grid = scene.flow.grid();
   std::vector<double> rates(grid.cells[0], 0.0);
   for_each(scene.flow.brick(), [&](int i, int j, int k) {
-    const Vec3 x = location(grid, 0, i, j, k);
+    const Real3 x = location(grid, 0, i, j, k);
     if (from_axis(grid, x) < radius(x[0]))
       rates[i] += scene.flow.velocity()[0](i, j, k) * grid.spacing[1] * grid.spacing[2];
   });
@@ -186,7 +190,7 @@ struct Throat {
       const int around = static_cast<int>(std::lround(2 * pi * r / spacing));
       for (int n = 0; n < around; ++n) {
         const double angle = 2 * pi * (n + 0.5 * (ring % 2)) / around;
-        const Vec3 normal{-slope * cosine, cosine * std::cos(angle), cosine * std::sin(angle)};
+        const Real3 normal{-slope * cosine, cosine * std::cos(angle), cosine * std::sin(angle)};
         const double area = 2 * pi * r / around * length / rings / cosine;
         points.position.push_back(
             {x + outside * normal[0],
@@ -205,8 +209,8 @@ double leakage(Scene &scene, const Throat &throat)
   const Grid &grid = scene.flow.grid();
   Points wall = throat.points(grid, 0, 0.8);
   assign(wall, grid, scene.flow.decomposition());
-  std::vector<Vec3> u(wall.count());
-  scene.flow.interpolate(scene.kernel, wall.markers(), wall.x(), numbers(u));
+  std::vector<Real3> u(wall.count());
+  scene.flow.interpolate(wall.markers(scene.kernel), numbers(u));
   double through = 0;
   for (int n : wall.index)
     through += std::abs(u[n][0] * wall.force[n][0] + u[n][1] * wall.force[n][1] +
@@ -222,7 +226,7 @@ double leakage(KernelKind kernel, double wide, double depth)
   Scene scene(grid, even(grid, {1, 1, ranks()}), kernel,
               {throat.points(grid, surface_offset(kernel), 1.2)}, true, 1e-4);
   scene.solve(
-      [&](int c, const Vec3 &x) {
+      [&](int c, const Real3 &x) {
         return c == 0 && from_axis(grid, x) < throat.radius(x[0], grid.cells[0]) ? 1.0 : 0.0;
       },
       at_rest);
@@ -251,7 +255,7 @@ PoiseuilleError poiseuille(KernelKind kernel, double radius)
   const double markers = radius + surface_offset(kernel);
   Scene scene(grid, even(grid, {1, 1, ranks()}), kernel, {tube(grid, markers, 1.2)}, true, 1e-4);
   scene.solve(
-      [&](int c, const Vec3 &x) { return c == 0 && from_axis(grid, x) < radius ? 1.0 : 0.0; },
+      [&](int c, const Real3 &x) { return c == 0 && from_axis(grid, x) < radius ? 1.0 : 0.0; },
       at_rest);
   const auto rates = flow_rates(scene, markers);
   const auto [least, most] = std::minmax_element(rates.begin(), rates.end());
@@ -278,7 +282,7 @@ double array(KernelKind kernel, double radius, double markers, int n)
   const Grid grid{{n, n, n}, {0, 0, 0}, {1, 1, 1}, false};
   Scene scene(grid, even(grid, {1, 1, ranks()}), kernel,
               {sphere({n / 2 + 0.1, n / 2 + 0.2, n / 2 + 0.3}, markers, 1.2)}, false, 1e-4);
-  scene.flow.drive.mean = {1, 0, 0};
+  scene.flow.forcing.mean = {1, 0, 0};
   scene.solve(no_force, at_rest);
   return -scene.force(0)[0] / (6 * pi * radius);
 }
@@ -351,11 +355,11 @@ TEST(RigidSurface, SphereOnTheAxisOfATube)
       double force[2], speed[2];
       for (int moves : {0, 1}) {
         scene.solve(
-            [&](int c, const Vec3 &x) {
+            [&](int c, const Real3 &x) {
               return !moves && c == 0 && from_axis(grid, x) < radius ? 1e-3 : 0.0;
             },
             [&](int body) {
-              return Vec3{double(moves && body == 1), 0, 0};
+              return Real3{double(moves && body == 1), 0, 0};
             },
             moves);
         force[moves] = scene.force(1)[0] / (6 * pi * a);
@@ -378,8 +382,8 @@ double mean_solves(double radius, double spacing, bool moves)
   int solves = 0;
   for (int n = 0; n < evaluations; ++n) {
     const double at = moves ? 0.5 + 0.1 * n * radius / 14 : 5;
-    const Vec3 x0{at, 0.5 * grid.cells[1] + 0.75 * radius, 0.5 * grid.cells[2]};
-    const auto force = [&](int c, const Vec3 &x) {
+    const Real3 x0{at, 0.5 * grid.cells[1] + 0.75 * radius, 0.5 * grid.cells[2]};
+    const auto force = [&](int c, const Real3 &x) {
       const double square =
           std::pow(x[0] - x0[0], 2) + std::pow(x[1] - x0[1], 2) + std::pow(x[2] - x0[2], 2);
       const double cell = std::exp(-square / (0.01 * radius * radius));
@@ -413,8 +417,8 @@ TEST(RigidSurface, ForceNextToTheWall)
 {
   constexpr double radius = 14;
   const Grid grid = around_tube(radius, 2 * radius);
-  const Vec3 x0{5, 0.5 * grid.cells[1] + radius - 0.3, 0.5 * grid.cells[2]};
-  const auto force = [&](int c, const Vec3 &x) {
+  const Real3 x0{5, 0.5 * grid.cells[1] + radius - 0.3, 0.5 * grid.cells[2]};
+  const auto force = [&](int c, const Real3 &x) {
     const double square =
         std::pow(x[0] - x0[0], 2) + std::pow(x[1] - x0[1], 2) + std::pow(x[2] - x0[2], 2);
     return (c == 0 && from_axis(grid, x) < radius ? 1.0 : 0.0) +
@@ -431,8 +435,8 @@ TEST(RigidSurface, ForceNextToTheWall)
     EXPECT_TRUE(outcome.converged);
     EXPECT_GT(outcome.slip, 1e-3);
     solves[exact] = outcome.solves;
-    mean[exact] = scene.flow.drive.mean[0];
-    largest = measure(scene.flow).max_speed;
+    mean[exact] = scene.flow.forcing.mean[0];
+    largest = scene.flow.diagnose().max_speed;
   }
   std::printf("mean velocity %.6g, %.6g, largest %.6g\n", mean[0], mean[1], largest);
   EXPECT_NEAR(mean[0], mean[1], 1e-3 * largest);
@@ -447,16 +451,16 @@ TEST(RigidSurface, DoesNotDependOnTheDecomposition)
     Scene scene(grid, decomposition, KernelKind::peskin4,
                 {tube(grid, 6, 1.2), sphere({6.1, 9.8, 10.3}, 2, 1.2)}, true, 1e-9);
     const auto outcome =
-        scene.solve([](int c, const Vec3 &x) { return c == 0 ? 1 + 0.5 * std::sin(x[1]) : 0.0; },
+        scene.solve([](int c, const Real3 &x) { return c == 0 ? 1 + 0.5 * std::sin(x[1]) : 0.0; },
                     [](int body) {
-                      return body == 1 ? Vec3{2, 0.5, 0} : Vec3{0, 0, 0};
+                      return body == 1 ? Real3{2, 0.5, 0} : Real3{0, 0, 0};
                     });
     EXPECT_LT(outcome.slip, 0.01);
     double sums[6] = {0, 0, 0, 0, 0, 0};
     for (std::size_t n = 0; n < scene.body.size(); ++n)
       for (int d = 0; d < 3; ++d) sums[3 * scene.body[n] + d] += scene.surface.force()[3 * n + d];
     MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, decomposition.comm);
-    const Vec3 mean = scene.flow.drive.mean;
+    const Real3 mean = scene.flow.forcing.mean;
     return std::array<double, 7>{sums[0], sums[1], sums[2], sums[3], sums[4], mean[0], mean[1]};
   };
   const auto one = results(alone(grid)), all = results(even(grid, {1, 1, ranks()}));

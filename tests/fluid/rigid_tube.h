@@ -24,14 +24,14 @@ inline Points tube(const Grid &grid, double radius, double spacing)
 }
 
 /// Distance from the axis of the tube.
-inline double from_axis(const Grid &grid, const Vec3 &x)
+inline double from_axis(const Grid &grid, const Real3 &x)
 {
   return std::hypot(x[1] - grid.origin[1] - 0.5 * grid.cells[1] * grid.spacing[1],
                     x[2] - grid.origin[2] - 0.5 * grid.cells[2] * grid.spacing[2]);
 }
 
 /// Rows of the markers of this rank.
-inline std::vector<double> rows_here(const std::vector<Vec3> &all, const Points &points)
+inline std::vector<double> rows_here(const std::vector<Real3> &all, const Points &points)
 {
   std::vector<double> rows;
   for (int n : points.index) rows.insert(rows.end(), all[n].begin(), all[n].end());

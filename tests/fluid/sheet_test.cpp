@@ -13,22 +13,22 @@ constexpr int width = 5;
 constexpr KernelKind kernels[] = {KernelKind::peskin4, KernelKind::roma3};
 
 /// Velocities of this rank's markers in a flow of unit viscosity that their forces drive.
-std::vector<Vec3> velocities(const Grid &grid, const Decomposition &decomposition,
-                             KernelKind kernel, Points points, Flow::As as)
+std::vector<Real3> velocities(const Grid &grid, const Decomposition &decomposition,
+                              KernelKind kernel, Points points, MarkerKind kind)
 {
-  Flow flow(grid, decomposition, width, Regime{});
+  ForcedFlow flow(grid, decomposition, width, FlowEquations{});
   assign(points, grid, decomposition);
   flow.clear_force();
-  EXPECT_EQ(flow.spread(kernel, points.markers(), points.x(), points.f(), 1, as), -1);
-  flow.gather_force();
+  EXPECT_EQ(flow.spread(points.markers(kernel, kind), points.f(), 1), -1);
+  flow.accumulate_ghosts();
   flow.solve();
-  flow.share_velocity();
-  std::vector<Vec3> velocity(points.count(), {undefined, undefined, undefined});
-  flow.interpolate(kernel, points.markers(), points.x(), numbers(velocity), as);
+  flow.fill_ghosts();
+  std::vector<Real3> velocity(points.count(), {undefined, undefined, undefined});
+  flow.interpolate(points.markers(kernel, kind), numbers(velocity));
 
-  std::vector<Vec3> response = velocity;
-  Flow other(grid, decomposition, width, Regime{});
-  other.respond(kernel, points.markers(), points.x(), points.f(), numbers(response), as);
+  std::vector<Real3> response = velocity;
+  ForcedFlow other(grid, decomposition, width, FlowEquations{});
+  other.apply_mobility(points.markers(kernel, kind), points.f(), numbers(response));
   for (int n : points.index)
     for (int d = 0; d < 3; ++d) EXPECT_NEAR(response[n][d], velocity[n][d], 1e-12);
   return velocity;
@@ -52,12 +52,12 @@ TEST(Sheet, PlaneBetweenPlates)
           plane.force.push_back({0.7 * 0.7, 0, 0});
         }
       const double exact = 0.7 / (1 / z + 1 / (24 - z));
-      const auto error = [&](Flow::As as) {
-        return (velocities(grid, alone(grid), kernel, plane, as)[0][0] - exact) / 0.7;
+      const auto error = [&](MarkerKind kind) {
+        return (velocities(grid, alone(grid), kernel, plane, kind)[0][0] - exact) / 0.7;
       };
-      as_points += error(Flow::As::points) / places;
-      as_sheet += error(Flow::As::sheets) / places;
-      worst = std::max(worst, std::abs(error(Flow::As::sheets)));
+      as_points += error(MarkerKind::points) / places;
+      as_sheet += error(MarkerKind::sheets) / places;
+      worst = std::max(worst, std::abs(error(MarkerKind::sheets)));
     }
     EXPECT_NEAR(as_points, -surface_offset(kernel), 1e-3);
     EXPECT_NEAR(as_sheet, 0, 0.06 * surface_offset(kernel));
@@ -67,18 +67,18 @@ TEST(Sheet, PlaneBetweenPlates)
 
 /// Angular velocity, over the exact one, of a sphere of tractions that turn it, in a cubic array: that of a torque T is
 /// T (1 - c) / (8 pi viscosity a^3), c the volume fraction, to order c^(10/3).
-double turning(KernelKind kernel, double radius, Flow::As as)
+double turning(KernelKind kernel, double radius, MarkerKind kind)
 {
   const int n = static_cast<int>(4 * radius);
   const Grid grid{{n, n, n}, {0, 0, 0}, {1, 1, 1}, false};
-  const Vec3 centre{n / 2 + 0.1, n / 2 + 0.2, n / 2 + 0.3};
+  const Real3 centre{n / 2 + 0.1, n / 2 + 0.2, n / 2 + 0.3};
   Points points = sphere(centre, radius, 0.7);
   const double share = 4 * pi * radius * radius / points.count();
-  for (const Vec3 &x : points.position)
+  for (const Real3 &x : points.position)
     points.force.push_back(
         {-3 * share * (x[1] - centre[1]) / radius, 3 * share * (x[0] - centre[0]) / radius, 0});
   const Decomposition decomposition = even(grid, {1, 1, ranks()});
-  const auto velocity = velocities(grid, decomposition, kernel, points, as);
+  const auto velocity = velocities(grid, decomposition, kernel, points, kind);
   assign(points, grid, decomposition);
   double along = 0, moment = 0;
   for (int m : points.index) {
@@ -97,8 +97,8 @@ TEST(Sheet, TurningSphere)
     const double lag = 3 * surface_offset(kernel);
     double before = 0;
     for (double radius : {4.0, 8.0, 16.0}) {
-      const double as_points = turning(kernel, radius, Flow::As::points) - 1;
-      const double as_sheet = turning(kernel, radius, Flow::As::sheets) - 1;
+      const double as_points = turning(kernel, radius, MarkerKind::points) - 1;
+      const double as_sheet = turning(kernel, radius, MarkerKind::sheets) - 1;
       EXPECT_NEAR(as_points * radius / lag, -1, 0.2);
       EXPECT_LT(std::abs(as_sheet) * radius * radius, 0.3);
       if (before != 0) {
@@ -115,10 +115,10 @@ TEST(Sheet, IsTheSameOnAnyRanks)
     for (KernelKind kernel : kernels) {
       const Grid grid{{16, 12, 14}, {0.3, -5, 2}, {0.5, 0.4, 0.3}, walls};
       const Points points = scatter(grid, 60, 2);
-      const auto expected = velocities(grid, alone(grid), kernel, points, Flow::As::sheets);
+      const auto expected = velocities(grid, alone(grid), kernel, points, MarkerKind::sheets);
       for (const auto &[name, decomposition] : layouts(grid)) {
         SCOPED_TRACE(name);
-        const auto found = velocities(grid, decomposition, kernel, points, Flow::As::sheets);
+        const auto found = velocities(grid, decomposition, kernel, points, MarkerKind::sheets);
         for (int n = 0; n < points.count(); ++n)
           for (int d = 0; d < 3; ++d) {
             if (std::isnan(found[n][d])) continue;
@@ -135,7 +135,7 @@ TEST(Sheet, MobilityIsSymmetricAndPositive)
   Points one = scatter(grid, 60, 3), other = one;
   for (int n = 0; n < one.count(); ++n) other.force[n] = {noise(8, n), noise(9, n), noise(10, n)};
   const auto work = [&](const Points &on, const Points &by) {
-    const auto v = velocities(grid, alone(grid), KernelKind::roma3, by, Flow::As::sheets);
+    const auto v = velocities(grid, alone(grid), KernelKind::roma3, by, MarkerKind::sheets);
     double sum = 0;
     for (int n = 0; n < on.count(); ++n)
       for (int d = 0; d < 3; ++d) sum += on.force[n][d] * v[n][d];

@@ -1,7 +1,7 @@
 // Steps of any length do not blow up without convection; with it the Courant number has a limit.
 
 #include "flow_support.h"
-#include "fluid/measures.h"
+#include "fluid/diagnostics.h"
 
 #include <complex>
 
@@ -44,15 +44,15 @@ TEST(Stability, UnsteadyFlowComesCloserToTheSteadyOne)
     SCOPED_TRACE(which.name);
     const Grid grid = grid_of(which.walls);
     const Decomposition decomposition = even(grid, {1, 1, ranks()});
-    Flow steady(grid, decomposition, 1, Regime{1});
+    ForcedFlow steady(grid, decomposition, 1, FlowEquations{1});
     set_noise_force(steady, 1);
-    steady.drive.walls = {{0.4, 0.1, 0}, {-0.5, 0.2, 0}};
+    steady.forcing.plates = {{0.4, 0.1, 0}, {-0.5, 0.2, 0}};
     steady.solve();
     for_each_time_step(grid, [&](double dt) {
-      Flow flow(grid, decomposition, 1, Regime{1, 1, Inertia::unsteady, which.scheme});
+      ForcedFlow flow(grid, decomposition, 1, FlowEquations{1, 1, Inertia::unsteady, which.scheme});
       set_noise_velocity(flow, 2, 1);
       set_noise_force(flow, 1);
-      flow.drive = steady.drive;
+      flow.forcing = steady.forcing;
       const auto distance = [&] {
         return difference(flow.velocity(), steady.velocity(), flow.brick()).rms();
       };
@@ -77,24 +77,24 @@ TEST(Stability, VelocityInTheMiddleOfAStepIsBounded)
     SCOPED_TRACE(which.name);
     const Grid grid = grid_of(which.walls);
     const Decomposition decomposition = even(grid, {1, 1, ranks()});
-    const auto drive = [](Flow &flow, int n) {
+    const auto drive = [](ForcedFlow &flow, int n) {
       set_noise_force(flow, n);
-      flow.drive.walls = {{0.2 * noise(n), 0.1, 0}, {0, 0.2 * noise(n, 1), 0}};
+      flow.forcing.plates = {{0.2 * noise(n), 0.1, 0}, {0, 0.2 * noise(n, 1), 0}};
     };
     double steadily = 0;
-    Flow steady(grid, decomposition, 1, Regime{1});
+    ForcedFlow steady(grid, decomposition, 1, FlowEquations{1});
     for (int n = 0; n < steps; ++n) {
       drive(steady, n);
       steady.solve();
-      steadily = std::max(steadily, measure(steady).max_speed);
+      steadily = std::max(steadily, steady.diagnose().max_speed);
     }
     for_each_time_step(grid, [&](double dt) {
-      Flow flow(grid, decomposition, 1, Regime{1, 1, Inertia::unsteady, which.scheme});
+      ForcedFlow flow(grid, decomposition, 1, FlowEquations{1, 1, Inertia::unsteady, which.scheme});
       double fastest = 0;
       for (int n = 0; n < steps; ++n) {
         drive(flow, n);
         flow.start_step(dt);
-        fastest = std::max(fastest, measure(flow).max_speed);
+        fastest = std::max(fastest, flow.diagnose().max_speed);
         flow.finish_step();
       }
       EXPECT_LT(fastest, 1.5 * steadily);
@@ -116,8 +116,9 @@ double amplification(double c, double d)
 double growth(double courant, double reynolds)
 {
   const Grid grid{{8, 4, 4}, {0, 0, 0}, {1, 1, 1}, false};
-  Flow flow(grid, even(grid, {1, 1, ranks()}), 0, Regime{1 / reynolds, 1, Inertia::convective});
-  flow.drive.mean = {1, 0, 0};
+  ForcedFlow flow(grid, even(grid, {1, 1, ranks()}), 0,
+                  FlowEquations{1 / reynolds, 1, Inertia::convective});
+  flow.forcing.mean = {1, 0, 0};
   flow.set_velocity([&](int c, int i, int, int) {
     return c == 0 ? 1 : c == 2 ? std::cos(pi / 2 * i) : 0;
   });
@@ -156,14 +157,15 @@ TEST(Stability, ConvectiveFlowBelowTheLimitLosesEnergy)
 {
   for (bool walls : {false, true}) {
     const Grid grid = grid_of(walls);
-    Flow flow(grid, even(grid, {1, 1, ranks()}), 1, Regime{1e-3, 1, Inertia::convective});
+    ForcedFlow flow(grid, even(grid, {1, 1, ranks()}), 1,
+                    FlowEquations{1e-3, 1, Inertia::convective});
     set_noise_velocity(flow, 3, 1);
-    double before = measure(flow).kinetic_energy_per_density, rise = 0;
+    double before = flow.diagnose().kinetic_energy_per_density, rise = 0;
     const double first = before;
     for (int n = 0; n < 1000; ++n) {
       const double rate = max(fastest_cell(grid, flow.brick(), flow.velocity()).rate);
       step(flow, 0.3 / rate);
-      const double energy = measure(flow).kinetic_energy_per_density;
+      const double energy = flow.diagnose().kinetic_energy_per_density;
       rise = std::max(rise, energy / before - 1);
       before = energy;
     }

@@ -10,11 +10,11 @@ namespace {
 /// A sum of waves u = a cos(k x + phase), a across k, and p = b sin(k x + phase).
 struct Waves {
   double viscosity, shift;
-  Drive drive{};
+  Forcing forcing{};
 
-  static constexpr Vec3 length{1.0, 1.6, 0.7};
+  static constexpr Real3 length{1.0, 1.6, 0.7};
   struct Wave {
-    Vec3 k, a;
+    Real3 k, a;
     double b, phase;
   };
   std::vector<Wave> waves;
@@ -26,7 +26,7 @@ struct Waves {
       const int n = static_cast<int>(waves.size());
       Wave wave;
       for (int d = 0; d < 3; ++d) wave.k[d] = 2 * pi * m[d] / length[d];
-      const Vec3 &k = wave.k, a{noise(n, 0), noise(n, 1), noise(n, 2)};
+      const Real3 &k = wave.k, a{noise(n, 0), noise(n, 1), noise(n, 2)};
       for (int d = 0; d < 3; ++d) {
         const int e = (d + 1) % 3, f = (d + 2) % 3;
         wave.a[d] = (k[e] * a[f] - k[f] * a[e]) / std::sqrt(square(k));
@@ -37,25 +37,25 @@ struct Waves {
     }
   }
 
-  static double square(const Vec3 &k) { return k[0] * k[0] + k[1] * k[1] + k[2] * k[2]; }
-  static double angle(const Wave &wave, const Vec3 &x)
+  static double square(const Real3 &k) { return k[0] * k[0] + k[1] * k[1] + k[2] * k[2]; }
+  static double angle(const Wave &wave, const Real3 &x)
   {
     return wave.k[0] * x[0] + wave.k[1] * x[1] + wave.k[2] * x[2] + wave.phase;
   }
 
-  double velocity(int c, const Vec3 &x) const
+  double velocity(int c, const Real3 &x) const
   {
     double sum = 0;
     for (const Wave &wave : waves) sum += wave.a[c] * std::cos(angle(wave, x));
     return sum;
   }
-  double pressure(const Vec3 &x) const
+  double pressure(const Real3 &x) const
   {
     double sum = 0;
     for (const Wave &wave : waves) sum += wave.b * std::sin(angle(wave, x));
     return sum;
   }
-  double force(int c, const Vec3 &x) const
+  double force(int c, const Real3 &x) const
   {
     double sum = 0;
     for (const Wave &wave : waves)
@@ -128,7 +128,7 @@ TEST(StokesPeriodic, SolvesTheDiscreteEquationsToRoundOff)
 TEST(StokesPeriodic, SolvesExtremeCases)
 {
   struct Extreme {
-    Vec3 spacing;
+    Real3 spacing;
     double viscosity, shift;
   };
   for (const Extreme &e :
@@ -149,7 +149,7 @@ TEST(StokesPeriodic, AUniformForceMovesNothingUnlessThereIsAShift)
   const Grid grid = grid_of({8, 9, 10});
   for (double shift : {0.0, 2.0}) {
     StokesCase stokes(grid, even(grid, {1, 1, ranks()}), 0.4, shift);
-    stokes.solve([](int c, const Vec3 &) { return c + 1.0; });
+    stokes.solve([](int c, const Real3 &) { return c + 1.0; });
     Error error;
     for (int c = 0; c < 3; ++c)
       for_each(stokes.brick(), [&](int i, int j, int k) {

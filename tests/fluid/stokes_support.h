@@ -10,9 +10,9 @@ namespace test {
 class StokesCase {
  public:
   StokesCase(const Grid &grid, const Decomposition &decomposition, double viscosity, double shift,
-             const Drive &drive = {}) :
+             const Forcing &forcing = {}) :
       grid_(grid),
-      brick_(decomposition.mine()), viscosity_(viscosity), shift_(shift), drive_(drive),
+      brick_(decomposition.mine()), viscosity_(viscosity), shift_(shift), forcing_(forcing),
       halo_(grid, decomposition, 1), force_(halo_.box()), velocity_(halo_.box()),
       pressure_(halo_.box()), solver_(grid, decomposition, viscosity, shift, shift == 0)
   {
@@ -28,14 +28,14 @@ class StokesCase {
   template <typename Value> void solve(const Value &value)
   {
     set_vector(force_, grid_, brick_, value);
-    solver_.velocity(force_, drive_, velocity_);
-    solver_.pressure(force_, drive_, pressure_);
+    solver_.velocity(force_, forcing_, velocity_);
+    solver_.pressure(force_, forcing_, pressure_);
     halo_.fill(velocity_.views());
     halo_.fill(pressure_.views());
   }
   void solve_noise()
   {
-    solve([this](int c, const Vec3 &x) {
+    solve([this](int c, const Real3 &x) {
       return noise(c, std::lround(2 * (x[0] - grid_.origin[0]) / grid_.spacing[0]),
                    std::lround(2 * (x[1] - grid_.origin[1]) / grid_.spacing[1]),
                    std::lround(2 * (x[2] - grid_.origin[2]) / grid_.spacing[2]));
@@ -55,7 +55,7 @@ class StokesCase {
   Residual residual() const
   {
     Residual r;
-    const Vec3 mean = mean_force();
+    const Real3 mean = mean_force();
     const auto count = [](double &largest, double value) {
       largest = std::max(largest, std::isnan(value) ? HUGE_VAL : std::abs(value));
     };
@@ -73,11 +73,11 @@ class StokesCase {
       for (int c = 0; c < 3; ++c) {
         const double f = force_[c](i, j, k);
         count(r.force, f);
-        if (grid_.walls && c == 2 && k == 0) {
+        if (grid_.plates && c == 2 && k == 0) {
           count(r.plate, velocity_[c](i, j, k));
           continue;
         }
-        double sum = shift_ * u(c, i, j, k) - f + mean[c] - (grid_.walls ? drive_.body[c] : 0);
+        double sum = shift_ * u(c, i, j, k) - f + mean[c] - (grid_.plates ? forcing_.body[c] : 0);
         count(r.term, shift_ * u(c, i, j, k));
         for (int d = 0; d < 3; ++d) {
           const int x = d == 0, y = d == 1, z = d == 2;
@@ -106,18 +106,18 @@ class StokesCase {
   {
     const int n = grid_.cells[2];
     const auto &field = velocity_[c];
-    if (!grid_.walls) return field(i, j, k);
+    if (!grid_.plates) return field(i, j, k);
     if (c == 2) return k == 0 || k == n ? 0 : field(i, j, k);
-    if (k < 0) return 2 * drive_.walls.lower[c] - field(i, j, 0);
-    if (k >= n) return 2 * drive_.walls.upper[c] - field(i, j, n - 1);
+    if (k < 0) return 2 * forcing_.plates.lower[c] - field(i, j, 0);
+    if (k >= n) return 2 * forcing_.plates.upper[c] - field(i, j, n - 1);
     return field(i, j, k);
   }
 
   /// What a uniform pressure gradient balances in a periodic Stokes flow.
-  Vec3 mean_force() const
+  Real3 mean_force() const
   {
-    Vec3 mean{0, 0, 0};
-    if (grid_.walls || shift_ > 0) return mean;
+    Real3 mean{0, 0, 0};
+    if (grid_.plates || shift_ > 0) return mean;
     for (int c = 0; c < 3; ++c)
       for_each(brick_, [&](int i, int j, int k) { mean[c] += force_[c](i, j, k) / grid_.size(); });
     reduce(MPI_SUM, mean[0], mean[1], mean[2]);
@@ -127,7 +127,7 @@ class StokesCase {
   Grid grid_;
   Box brick_;
   double viscosity_, shift_;
-  Drive drive_;
+  Forcing forcing_;
   Halo halo_;
   VectorField force_, velocity_;
   ScalarField pressure_;
@@ -142,8 +142,8 @@ struct FlowErrors {
 template <typename Exact>
 FlowErrors errors(const Exact &exact, const Grid &grid, const Decomposition &decomposition)
 {
-  StokesCase stokes(grid, decomposition, exact.viscosity, exact.shift, exact.drive);
-  stokes.solve([&](int c, const Vec3 &x) { return exact.force(c, x); });
+  StokesCase stokes(grid, decomposition, exact.viscosity, exact.shift, exact.forcing);
+  stokes.solve([&](int c, const Real3 &x) { return exact.force(c, x); });
   FlowErrors errors;
   for_each(stokes.brick(), [&](int i, int j, int k) {
     for (int c = 0; c < 3; ++c)

@@ -34,9 +34,9 @@ double Profile::operator()(double zeta, int derivative) const
 /// that move and a body force.
 struct WavesBetweenPlates {
   double viscosity, shift;
-  Drive drive;
+  Forcing forcing;
 
-  static constexpr Vec3 length{1.0, 1.3, height};
+  static constexpr Real3 length{1.0, 1.3, height};
   struct Wave {
     int mx, my;
     double phase;
@@ -47,16 +47,16 @@ struct WavesBetweenPlates {
 
   WavesBetweenPlates(double viscosity, double shift) : viscosity(viscosity), shift(shift)
   {
-    drive.walls.lower = {0.2, -0.1, 0};
-    drive.walls.upper = {-0.3, 0.4, 0};
-    drive.body = {0.7, 0.3, -0.5};
+    forcing.plates.lower = {0.2, -0.1, 0};
+    forcing.plates.upper = {-0.3, 0.4, 0};
+    forcing.body = {0.7, 0.3, -0.5};
     // zeta^2 (1 - zeta)^2 (1 + 2 zeta), zeta (1 - zeta) (1 + zeta), ...
     waves.push_back({1, 0, 0.3, {{0, 0, 10, 0, -30, 20}}, {{0, 2, 0, -2}}, {{1, 1, -3}}});
     waves.push_back({1, 2, 1.1, {{0, 0, -9, 27, -27, 9}}, {{0, 1, -3, 2}}, {{0, 1, 2, -1}}});
     waves.push_back({0, -1, 2.0, {{0, 0, 8, -16, 8}}, {{0, -1, 0, 0, 1}}, {{-1, 0, 0, 2}}});
   }
 
-  static double theta(const Wave &wave, const Vec3 &x)
+  static double theta(const Wave &wave, const Real3 &x)
   {
     return kx(wave) * x[0] + ky(wave) * x[1] + wave.phase;
   }
@@ -64,7 +64,7 @@ struct WavesBetweenPlates {
   static double ky(const Wave &wave) { return 2 * pi * wave.my / length[1]; }
 
   /// Component c of z2 d^2 u / dz^2 - k2 (d^2 u / dx^2 + d^2 u / dy^2) + one u.
-  double combine(int c, const Vec3 &x, double one, double k2, double z2) const
+  double combine(int c, const Real3 &x, double one, double k2, double z2) const
   {
     const double zeta = x[2] / height;
     double sum = 0;
@@ -83,23 +83,23 @@ struct WavesBetweenPlates {
       if (c == 2) sum += part(wave.w, 0) * cosine;
     }
     const double plates =
-        drive.walls.lower[c] + (drive.walls.upper[c] - drive.walls.lower[c]) * zeta;
+        forcing.plates.lower[c] + (forcing.plates.upper[c] - forcing.plates.lower[c]) * zeta;
     sum += one * plates;
     const double share[3]{1, -0.5, 0};
     return sum + share[c] * (z2 * mean(zeta, 2) + one * mean(zeta));
   }
 
-  double velocity(int c, const Vec3 &x) const { return combine(c, x, 1, 0, 0); }
-  double pressure(const Vec3 &x) const
+  double velocity(int c, const Real3 &x) const { return combine(c, x, 1, 0, 0); }
+  double pressure(const Real3 &x) const
   {
     double sum = mean_pressure(x[2] / height);
     for (const Wave &wave : waves) sum += wave.pressure(x[2] / height) * std::cos(theta(wave, x));
     return sum;
   }
-  double force(int c, const Vec3 &x) const
+  double force(int c, const Real3 &x) const
   {
     const double zeta = x[2] / height;
-    double sum = combine(c, x, shift, viscosity, -viscosity) - drive.body[c];
+    double sum = combine(c, x, shift, viscosity, -viscosity) - forcing.body[c];
     if (c == 2) sum += mean_pressure(zeta, 1);
     for (const Wave &wave : waves) {
       const double cosine = std::cos(theta(wave, x)), sine = std::sin(theta(wave, x));
@@ -147,20 +147,20 @@ TEST(StokesWalls, ShiftedFlowIsOfSecondOrder)
   expect_second_order({0.7, 40});
 }
 
-Drive busy_drive()
+Forcing busy_forcing()
 {
-  Drive drive;
-  drive.walls.lower = {0.3, -0.2, 0};
-  drive.walls.upper = {-0.1, 0.4, 0};
-  drive.body = {0.5, 0.2, -0.7};
-  return drive;
+  Forcing forcing;
+  forcing.plates.lower = {0.3, -0.2, 0};
+  forcing.plates.upper = {-0.1, 0.4, 0};
+  forcing.body = {0.5, 0.2, -0.7};
+  return forcing;
 }
 
 /// Residuals are compared with the terms that cancel in them, of which the rounding is left.
 void expect_solved(const Grid &grid, const Decomposition &decomposition, double viscosity,
                    double shift)
 {
-  StokesCase stokes(grid, decomposition, viscosity, shift, busy_drive());
+  StokesCase stokes(grid, decomposition, viscosity, shift, busy_forcing());
   stokes.solve_noise();
   const auto r = stokes.residual();
   EXPECT_LT(r.momentum, 1e-12 * r.term);
@@ -189,10 +189,10 @@ TEST(StokesWalls, SolvesTheDiscreteEquationsToRoundOff)
 
 TEST(StokesWalls, SolvesExtremeCases)
 {
-  const Vec3 unit{1, 1, 1};
+  const Real3 unit{1, 1, 1};
   struct Extreme {
     Index3 cells;
-    Vec3 spacing;
+    Real3 spacing;
     double viscosity, shift;
   };
   for (const Extreme &e : {
@@ -216,10 +216,10 @@ TEST(StokesWalls, SolvesExtremeCases)
 
 /// Largest deviation of u and v from profile(c, z) and of w from zero.
 template <typename Exact>
-double deviation(const Grid &grid, const Drive &drive, double viscosity, const Exact &exact)
+double deviation(const Grid &grid, const Forcing &forcing, double viscosity, const Exact &exact)
 {
-  StokesCase stokes(grid, even(grid, {1, 1, ranks()}), viscosity, 0, drive);
-  stokes.solve([](int, const Vec3 &) { return 0.0; });
+  StokesCase stokes(grid, even(grid, {1, 1, ranks()}), viscosity, 0, forcing);
+  stokes.solve([](int, const Real3 &) { return 0.0; });
   Error error;
   for (int c = 0; c < 3; ++c)
     for_each(stokes.brick(), [&](int i, int j, int k) {
@@ -233,11 +233,11 @@ TEST(StokesWalls, CouetteFlowIsLinear)
 {
   for (int nz : {4, 17, 128}) {
     const Grid grid = grid_of({8, 6, nz});
-    Drive drive;
-    drive.walls = busy_drive().walls;
-    const auto &[lower, upper] = drive.walls;
+    Forcing forcing;
+    forcing.plates = busy_forcing().plates;
+    const auto &[lower, upper] = forcing.plates;
     const double error =
-        deviation(grid, drive, 1.7, [&lower = lower, &upper = upper](int c, double z) {
+        deviation(grid, forcing, 1.7, [&lower = lower, &upper = upper](int c, double z) {
           return lower[c] + (upper[c] - lower[c]) * z / height;
         });
     EXPECT_LT(error, 1e-13);
@@ -252,10 +252,10 @@ TEST(StokesWalls, PoiseuilleFlowIsTheDiscreteParabola)
   for (int nz : {4, 17, 128}) {
     const Grid grid = grid_of({8, 6, nz});
     const double viscosity = 1.7, h = grid.spacing[2];
-    Drive drive;
-    drive.body = {0.6, -0.4, 0};
-    const double error = deviation(grid, drive, viscosity, [&](int c, double z) {
-      return drive.body[c] / (2 * viscosity) * (z * (height - z) + h * h / 4);
+    Forcing forcing;
+    forcing.body = {0.6, -0.4, 0};
+    const double error = deviation(grid, forcing, viscosity, [&](int c, double z) {
+      return forcing.body[c] / (2 * viscosity) * (z * (height - z) + h * h / 4);
     });
     EXPECT_LT(error, 1e-13);
   }

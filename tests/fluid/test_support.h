@@ -1,6 +1,7 @@
 #pragma once
 
-#include "fluid/coupling.h"
+#include "fluid/spreading.h"
+#include "forced_flow.h"
 
 #include <gtest/gtest.h>
 
@@ -133,7 +134,7 @@ inline std::string describe(const Grid &grid)
 {
   std::string text;
   for (int n : grid.cells) text += std::to_string(n) + ' ';
-  return text + (grid.walls ? "cells, plates" : "cells, periodic");
+  return text + (grid.plates ? "cells, plates" : "cells, periodic");
 }
 
 // ---- values
@@ -154,10 +155,10 @@ inline double noise(int a, int b = 0, int c = 0, int d = 0)
 
 /// Where component c of a vector stands: the middle of the lower face of cell (i, j, k); c = 3: its
 /// centre.
-inline Vec3 location(const Grid &grid, int c, int i, int j, int k)
+inline Real3 location(const Grid &grid, int c, int i, int j, int k)
 {
   const Index3 index{i, j, k};
-  Vec3 x;
+  Real3 x;
   for (int d = 0; d < 3; ++d)
     x[d] = grid.origin[d] + grid.spacing[d] * (index[d] + (d == c ? 0.0 : 0.5));
   return x;
@@ -227,22 +228,25 @@ struct Error {
 
 // ---- markers
 
-inline const double *numbers(const std::vector<Vec3> &rows)
+inline const double *numbers(const std::vector<Real3> &rows)
 {
   return rows.empty() ? nullptr : rows[0].data();
 }
-inline double *numbers(std::vector<Vec3> &rows)
+inline double *numbers(std::vector<Real3> &rows)
 {
   return rows.empty() ? nullptr : rows[0].data();
 }
 
 /// Markers known to every rank; `index` lists those of this rank.
 struct Points {
-  std::vector<Vec3> position, force;
+  std::vector<Real3> position, force;
   std::vector<int> index;
 
   int count() const { return static_cast<int>(position.size()); }
-  Markers markers() const { return {static_cast<int>(index.size()), index.data()}; }
+  MarkerSet markers(KernelKind kernel, MarkerKind kind = MarkerKind::points) const
+  {
+    return {kernel, kind, static_cast<int>(index.size()), index.data(), x()};
+  }
   const double *x() const { return numbers(position); }
   const double *f() const { return numbers(force); }
 };
@@ -268,12 +272,12 @@ inline Points scatter(const Grid &grid, int count, int seed)
 {
   Points points;
   for (int n = 0; n < count; ++n) {
-    Vec3 s;
+    Real3 s;
     for (int d = 0; d < 3; ++d) s[d] = 0.5 * (1 + noise(seed, n, d)) * grid.cells[d];
-    if (grid.walls && n % 8 == 0) s[2] = 0;
-    if (grid.walls && n % 8 == 1) s[2] = grid.cells[2];
-    if (grid.walls && n % 8 == 2) s[2] = s[2] / grid.cells[2];
-    if (grid.walls && n % 8 == 3) s[2] = grid.cells[2] - s[2] / grid.cells[2];
+    if (grid.plates && n % 8 == 0) s[2] = 0;
+    if (grid.plates && n % 8 == 1) s[2] = grid.cells[2];
+    if (grid.plates && n % 8 == 2) s[2] = s[2] / grid.cells[2];
+    if (grid.plates && n % 8 == 3) s[2] = grid.cells[2] - s[2] / grid.cells[2];
     for (int d = 0; d < 3; ++d) s[d] = grid.origin[d] + grid.spacing[d] * s[d];
     points.position.push_back(s);
     points.force.push_back({noise(seed, n, 3), noise(seed, n, 4), noise(seed, n, 5)});
@@ -286,11 +290,11 @@ inline void drift(Points &points, const Grid &grid, int seed)
 {
   for (int n = 0; n < points.count(); ++n)
     for (int d = 0; d < 3; ++d) {
-      if (d == 2 && grid.walls && n % 8 < 4) continue;
+      if (d == 2 && grid.plates && n % 8 < 4) continue;
       double &x = points.position[n][d];
       x += grid.spacing[d] * noise(seed, n, d);
       const double lowest = grid.origin[d], highest = lowest + grid.spacing[d] * grid.cells[d];
-      if (d == 2 && grid.walls) x = std::min(std::max(x, lowest), highest);
+      if (d == 2 && grid.plates) x = std::min(std::max(x, lowest), highest);
     }
 }
 

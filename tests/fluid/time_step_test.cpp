@@ -1,6 +1,6 @@
 // Steps in time follow a manufactured flow with second order in space and time.
 
-#include "fluid/measures.h"
+#include "fluid/diagnostics.h"
 #include "manufactured.h"
 
 using namespace test;
@@ -26,7 +26,7 @@ Errors errors(const Manufactured &exact, int n)
   Follower follower(exact, cells, slabs(exact.grid(cells)));
   const double dt = duration / (2 * n);
   for (int step = 0; step < 2 * n; ++step) follower.step(dt);
-  return {follower.error(), follower.pressure_error(dt), measure(follower.flow()).max_divergence};
+  return {follower.error(), follower.pressure_error(dt), follower.flow().diagnose().max_divergence};
 }
 
 class TimeStep : public testing::TestWithParam<Manufactured> {};
@@ -52,7 +52,7 @@ double order_in_time(const Manufactured &exact, Scheme scheme, int n, int steps,
     const double pair = 2 * duration / (steps * refined);
     for (int step = 0; step < steps * refined; ++step)
       follower.step(pair * (step % 2 ? stretch : 1) / (1 + stretch));
-    EXPECT_LT(measure(follower.flow()).max_divergence, 1e-13);
+    EXPECT_LT(follower.flow().diagnose().max_divergence, 1e-13);
     end.push_back(copy(follower.flow().velocity(), decomposition.mine()));
   }
   const auto rms = [&](int one, int other) {
@@ -71,7 +71,7 @@ TEST_P(TimeStep, IsOfSecondOrderWithStepsThatChange)
   EXPECT_NEAR(order_in_time(GetParam(), Scheme::coupled, 8, 80, 2.5), 2, 0.05);
 }
 
-Manufactured regime(Inertia inertia, bool walls)
+Manufactured equations(Inertia inertia, bool walls)
 {
   Manufactured exact;
   exact.inertia = inertia;
@@ -81,8 +81,8 @@ Manufactured regime(Inertia inertia, bool walls)
 
 INSTANTIATE_TEST_SUITE_P(
     , TimeStep,
-    testing::Values(regime(Inertia::unsteady, true), regime(Inertia::unsteady, false),
-                    regime(Inertia::convective, true), regime(Inertia::convective, false)),
+    testing::Values(equations(Inertia::unsteady, true), equations(Inertia::unsteady, false),
+                    equations(Inertia::convective, true), equations(Inertia::convective, false)),
     [](const auto &info) {
       return std::string(info.param.inertia == Inertia::unsteady ? "Unsteady" : "Convective") +
              (info.param.walls ? "BetweenPlates" : "Periodic");
@@ -92,7 +92,7 @@ TEST(Projection, IsOfSecondOrderInTime)
 {
   for (Inertia inertia : {Inertia::unsteady, Inertia::convective})
     for (double viscosity : {0.05, 1.0}) {
-      Manufactured exact = regime(inertia, true);
+      Manufactured exact = equations(inertia, true);
       exact.viscosity = viscosity;
       EXPECT_NEAR(order_in_time(exact, Scheme::projection, 8, 80), 2, 0.05);
       EXPECT_NEAR(order_in_time(exact, Scheme::projection, 8, 80, 2.5), 2, 0.1);

@@ -7,8 +7,8 @@
 #include <random>
 
 using rbc::ChebyshevMethod;
+using rbc::DisplacementHistory;
 using rbc::Numbers;
-using rbc::Path;
 
 namespace {
 
@@ -37,7 +37,7 @@ double error_at_end(int order, double fast, int steps)
   test::GivenMotion motion = slow_and_fast(fast);
   ChebyshevMethod method(order);
   method.set_stages(std::max(6, method.stages_for(fast * dt)));
-  Path past;
+  DisplacementHistory past;
   past.clear(method.past_steps());
   for (int n = method.past_steps(); n > 0; --n) {
     past.add(dt, test::difference(exact((1 - n) * dt), exact(-n * dt)));
@@ -87,7 +87,7 @@ double growth(int order, int stages, double times)
   });
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  Path past;
+  DisplacementHistory past;
   past.clear(method.past_steps());
   Numbers x(modes), v(modes), next, moved(modes);
   for (double &value : x) value = uniform(random);
@@ -133,7 +133,7 @@ TEST(Chebyshev, EvaluatesOncePerStageButTheFirst)
   ChebyshevMethod method;
   method.set_stages(7);
   Numbers x;
-  method.step(motion, 0.1, exact(0), Numbers(6), Path(), x);
+  method.step(motion, 0.1, exact(0), Numbers(6), DisplacementHistory(), x);
   EXPECT_EQ(motion.evaluations, 6);
 }
 
@@ -145,9 +145,9 @@ TEST(Chebyshev, TellsTheFractionOfTheStep)
   ChebyshevMethod method;
   method.set_stages(9);
   Numbers x;
-  method.step(motion, 2, Numbers(3), Numbers(3, 1), Path(), x);
+  method.step(motion, 2, Numbers(3), Numbers(3, 1), DisplacementHistory(), x);
   EXPECT_NEAR(x[0], 4, 1e-12);    // 2 * integral of 1 + 2 f over f from 0 to 1
-  method.step(motion, 1, Numbers(3), Numbers(3, 2), Path(), x, 0.5, 0.5);
+  method.step(motion, 1, Numbers(3), Numbers(3, 2), DisplacementHistory(), x, 0.5, 0.5);
   EXPECT_NEAR(x[0], 2.5, 1e-12);    // the second half
 }
 

@@ -81,7 +81,7 @@ TEST(SpectralRadius, FindsTheModeAlongWhichAnUnstableStepGrew)
   rbc::ChebyshevMethod method;
   const double dt = 10;
   method.set_stages(method.stages_for(dt * before));
-  method.step(motion, dt, start, v, rbc::Path(), end);
+  method.step(motion, dt, start, v, rbc::DisplacementHistory(), end);
   ASSERT_GT(std::abs(end[7]), 1);    // unstable
   // signs of modes mean nothing: what grew, the other way round, with a little of the slow ones
   Numbers opposite(30, 1e-3);

@@ -20,7 +20,7 @@ LocalCells::LocalCells(LAMMPS *lmp, const rbc::SurfaceTemplate &shape, int group
 {
 }
 
-void LocalCells::find()
+void LocalCells::identify()
 {
   if (!atom->molecule_flag || !atom->tag_enable)
     error->all(FLERR, "{} requires atoms with IDs and molecule IDs", style);
@@ -84,7 +84,7 @@ Vec3 LocalCells::image_shift(int i) const
   return {shift[0], shift[1], shift[2]};
 }
 
-void LocalCells::bind(bool bending)
+void LocalCells::update_ownership(bool bending)
 {
   const int size = shape.size();
   std::vector<int> slot(molecule_ids.size(), -1);

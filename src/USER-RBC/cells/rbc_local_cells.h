@@ -28,11 +28,11 @@ class LocalCells : protected Pointers {
   LocalCells(LAMMPS *lmp, const rbc::SurfaceTemplate &shape, int groupbit, std::string style);
 
   /// Collective: finds the group's cells and checks that each is whole.
-  void find();
+  void identify();
 
   /// Collective, after atoms migrated: finds which vertices this rank holds. With `bending` the forces on a vertex
   /// reach its neighbours' neighbours.
-  void bind(bool bending);
+  void update_ownership(bool bending);
 
   const std::vector<tagint> &molecules() const { return molecule_ids; }
   /// Lowest atom ID of each cell.

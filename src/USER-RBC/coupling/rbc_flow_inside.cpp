@@ -28,7 +28,7 @@ fluid::Interior *FlowInside::find(const fluid::Flow &flow)
   region->init();
   const RegionEnclosure enclosure(region, domain);
   interior_ = std::make_unique<fluid::Interior>(flow.grid(), flow.decomposition(),
-                                                [&](const fluid::Vec3 &x) {
+                                                [&](const fluid::Real3 &x) {
                                                   return enclosure.holds({x[0], x[1], x[2]});
                                                 });
   if (interior_->volume() == 0)
@@ -47,7 +47,7 @@ double FlowInside::volume(const fluid::Flow &flow)
 
 /* ---------------------------------------------------------------------- */
 
-const fluid::Vec3 &FlowInside::mean_velocity(fluid::Flow &flow, bigint version)
+const fluid::Real3 &FlowInside::mean_velocity(fluid::Flow &flow, bigint version)
 {
   if (version_ != version) velocity_ = find(flow)->mean_velocity(flow);
   version_ = version;

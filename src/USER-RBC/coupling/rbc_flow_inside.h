@@ -16,6 +16,8 @@ class FlowInside : protected Pointers {
   /// The style is for messages. Without a region the inside is the whole box.
   FlowInside(LAMMPS *lmp, std::string style, std::string region);
 
+  const std::string &style() const { return style_; }
+
   /// The region, or the decomposition of the flow, may be another.
   void forget()
   {
@@ -27,7 +29,7 @@ class FlowInside : protected Pointers {
   double volume(const fluid::Flow &flow);
 
   /// Computed once for each version of the flow. Not for the whole box.
-  const fluid::Vec3 &mean_velocity(fluid::Flow &flow, bigint version);
+  const fluid::Real3 &mean_velocity(fluid::Flow &flow, bigint version);
 
   /// Null for the whole box.
   fluid::Interior *find(const fluid::Flow &flow);
@@ -35,7 +37,7 @@ class FlowInside : protected Pointers {
  private:
   std::string style_, region_id_;
   std::unique_ptr<fluid::Interior> interior_;
-  fluid::Vec3 velocity_{0, 0, 0};
+  fluid::Real3 velocity_{0, 0, 0};
   bigint version_ = -1;
 };
 

@@ -19,9 +19,9 @@ std::vector<double> FlowRestart::head(const fluid::Flow &flow) const
           domain->prd[0],
           domain->prd[1],
           domain->prd[2],
-          double(flow.grid().walls),
-          double(flow.regime().inertia),
-          double(flow.regime().scheme),
+          double(flow.grid().plates),
+          double(flow.equations().inertia),
+          double(flow.equations().scheme),
           double(flow.history_length())};
 }
 

@@ -20,7 +20,10 @@ constexpr double MAX_CELLS = 0.25 * MAXSMALLINT;
 
 class Reader : protected Pointers {
  public:
-  Reader(LAMMPS *lmp, const char *id, FlowDrive &drive) : Pointers(lmp), id(id), drive(drive) {}
+  Reader(LAMMPS *lmp, const char *id, FlowForcing &forcing) :
+      Pointers(lmp), id(id), forcing(forcing)
+  {
+  }
 
   FluidSettings settings;
 
@@ -30,16 +33,17 @@ class Reader : protected Pointers {
 
  private:
   const char *id;
-  FlowDrive &drive;
+  FlowForcing &forcing;
   double target_spacing = 0;
 
-  void parse_vector(int iarg, int narg, char **arg, const char *keyword, FlowDrive::Vector &vector);
+  void parse_vector(int iarg, int narg, char **arg, const char *keyword,
+                    FlowForcing::Vector &vector);
 };
 
 /* ---------------------------------------------------------------------- */
 
 void Reader::parse_vector(int iarg, int narg, char **arg, const char *keyword,
-                          FlowDrive::Vector &vector)
+                          FlowForcing::Vector &vector)
 {
   if (iarg + 3 > narg)
     utils::missing_cmd_args(FLERR, std::string("fix rbc/fluid ") + keyword, error);
@@ -52,7 +56,7 @@ void Reader::parse(int narg, char **arg)
 {
   bool wall_given[2] = {false, false};
   bool mean_given = false;
-  settings.regime.viscosity = settings.regime.density = 0;
+  settings.equations.viscosity = settings.equations.density = 0;
   int iarg = 3;
   const auto need = [&](int n, const char *keyword) {
     if (iarg + n >= narg)
@@ -83,21 +87,21 @@ void Reader::parse(int narg, char **arg)
       iarg += 4;
     } else if (keyword == "viscosity") {
       need(1, "viscosity");
-      settings.regime.viscosity = positive(iarg + 1, "viscosity");
+      settings.equations.viscosity = positive(iarg + 1, "viscosity");
       iarg += 2;
     } else if (keyword == "density") {
       need(1, "density");
-      settings.regime.density = positive(iarg + 1, "density");
+      settings.equations.density = positive(iarg + 1, "density");
       iarg += 2;
     } else if (keyword == "inertia") {
       need(1, "inertia");
       const std::string value = arg[iarg + 1];
       if (value == "none")
-        settings.regime.inertia = fluid::Inertia::none;
+        settings.equations.inertia = fluid::Inertia::none;
       else if (value == "unsteady")
-        settings.regime.inertia = fluid::Inertia::unsteady;
+        settings.equations.inertia = fluid::Inertia::unsteady;
       else if (value == "convective")
-        settings.regime.inertia = fluid::Inertia::convective;
+        settings.equations.inertia = fluid::Inertia::convective;
       else
         error->all(FLERR, iarg + 1,
                    "Unknown fix rbc/fluid inertia {}; allowed: none, unsteady, convective", value);
@@ -106,9 +110,9 @@ void Reader::parse(int narg, char **arg)
       need(1, "scheme");
       const std::string value = arg[iarg + 1];
       if (value == "coupled")
-        settings.regime.scheme = fluid::Scheme::coupled;
+        settings.equations.scheme = fluid::Scheme::coupled;
       else if (value == "projection")
-        settings.regime.scheme = fluid::Scheme::projection;
+        settings.equations.scheme = fluid::Scheme::projection;
       else
         error->all(FLERR, iarg + 1, "Unknown fix rbc/fluid scheme {}; allowed: coupled, projection",
                    value);
@@ -122,8 +126,8 @@ void Reader::parse(int narg, char **arg)
         error->all(FLERR, iarg,
                    "Fix rbc/fluid wall {} on a periodic side: z must be fixed (boundary p p f)",
                    side);
-      parse_vector(iarg + 2, narg, arg, "wall", side == "zlo" ? drive.lower : drive.upper);
-      const NumberOrVariable &normal = (side == "zlo" ? drive.lower : drive.upper)[2];
+      parse_vector(iarg + 2, narg, arg, "wall", side == "zlo" ? forcing.lower : forcing.upper);
+      const NumberOrVariable &normal = (side == "zlo" ? forcing.lower : forcing.upper)[2];
       if (normal.is_variable() || normal.value(lmp) != 0)
         error->all(
             FLERR, iarg + 4,
@@ -132,7 +136,7 @@ void Reader::parse(int narg, char **arg)
       wall_given[side == "zhi"] = true;
       iarg += 5;
     } else if (keyword == "body") {
-      parse_vector(iarg + 1, narg, arg, "body", drive.body);
+      parse_vector(iarg + 1, narg, arg, "body", forcing.body);
       iarg += 4;
     } else if (keyword == "mean") {
       need(1, "mean");
@@ -143,7 +147,7 @@ void Reader::parse(int narg, char **arg)
           error->all(
               FLERR, iarg + 1,
               "Fix rbc/fluid mean z needs a triply periodic box: plates let no flow through");
-        drive.hold_inside(value[0] - 'x', NumberOrVariable(lmp, arg[iarg + 2]));
+        forcing.hold_inside(value[0] - 'x', NumberOrVariable(lmp, arg[iarg + 2]));
         iarg += 3;
         continue;
       }
@@ -159,7 +163,7 @@ void Reader::parse(int narg, char **arg)
         iarg += 2;
       } else {
         settings.free_mean = false;
-        parse_vector(iarg + 1, narg, arg, "mean", drive.mean);
+        parse_vector(iarg + 1, narg, arg, "mean", forcing.mean);
         iarg += 4;
       }
     } else if (keyword == "inside") {
@@ -179,21 +183,21 @@ void Reader::parse(int narg, char **arg)
   settings.plates = !domain->zperiodic;
   if (settings.plates && !(wall_given[0] && wall_given[1]))
     error->all(FLERR, "Fix rbc/fluid needs wall zlo and wall zhi where z is not periodic");
-  const bool inertia = settings.regime.inertia != fluid::Inertia::none;
-  if (!inertia && settings.regime.scheme == fluid::Scheme::projection)
+  const bool inertia = settings.equations.inertia != fluid::Inertia::none;
+  if (!inertia && settings.equations.scheme == fluid::Scheme::projection)
     error->all(FLERR,
                "Fix rbc/fluid scheme projection needs inertia unsteady or convective: steady "
                "flow has no step to split");
-  if (inertia && drive.held_direction() >= 0)
-    error->all(FLERR, "Fix rbc/fluid mean {} needs inertia none", "xyz"[drive.held_direction()]);
+  if (inertia && forcing.held_direction() >= 0)
+    error->all(FLERR, "Fix rbc/fluid mean {} needs inertia none", "xyz"[forcing.held_direction()]);
   settings.prescribed_mean = mean_given && !settings.free_mean;
-  settings.regime.hold_mean = !inertia || settings.prescribed_mean;
+  settings.equations.hold_mean = !inertia || settings.prescribed_mean;
   if (target_spacing == 0 && settings.cells[0] == 0)
     error->all(FLERR, "Fix rbc/fluid needs dx or grid");
   if (target_spacing > 0 && settings.cells[0] > 0)
     error->all(FLERR, "Fix rbc/fluid takes either dx or grid, not both");
-  if (settings.regime.viscosity == 0) error->all(FLERR, "Fix rbc/fluid needs viscosity");
-  if (settings.regime.density == 0) error->all(FLERR, "Fix rbc/fluid needs density");
+  if (settings.equations.viscosity == 0) error->all(FLERR, "Fix rbc/fluid needs viscosity");
+  if (settings.equations.density == 0) error->all(FLERR, "Fix rbc/fluid needs density");
 }
 
 /* ----------------------------------------------------------------------
@@ -251,9 +255,10 @@ void Reader::check_grid() const
 
 /* ---------------------------------------------------------------------- */
 
-FluidSettings LAMMPS_NS::read_fluid_settings(LAMMPS *lmp, int narg, char **arg, FlowDrive &drive)
+FluidSettings LAMMPS_NS::read_fluid_settings(LAMMPS *lmp, int narg, char **arg,
+                                             FlowForcing &forcing)
 {
-  Reader reader(lmp, arg[0], drive);
+  Reader reader(lmp, arg[0], forcing);
   reader.parse(narg, arg);
   reader.choose_grid();
   reader.check_grid();

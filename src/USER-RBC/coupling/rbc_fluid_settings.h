@@ -1,7 +1,7 @@
 #ifndef LMP_RBC_FLUID_SETTINGS_H
 #define LMP_RBC_FLUID_SETTINGS_H
 
-#include "coupling/rbc_flow_drive.h"
+#include "coupling/rbc_flow_forcing.h"
 #include "fluid/flow.h"
 
 #include <array>
@@ -9,9 +9,9 @@
 
 namespace LAMMPS_NS {
 
-/// The arguments of fix rbc/fluid but for its drive: which fluid, and on which grid.
+/// The arguments of fix rbc/fluid but for its forcing: which fluid, and on which grid.
 struct FluidSettings {
-  fluid::Regime regime;
+  fluid::FlowEquations equations;
   std::array<int, 3> cells{};
   bool plates = false;
   bool free_mean = false;          ///< asked for: the mean velocity follows from forces
@@ -20,7 +20,7 @@ struct FluidSettings {
 };
 
 /// An error names the argument that is wrong.
-FluidSettings read_fluid_settings(LAMMPS *lmp, int narg, char **arg, FlowDrive &drive);
+FluidSettings read_fluid_settings(LAMMPS *lmp, int narg, char **arg, FlowForcing &forcing);
 
 }    // namespace LAMMPS_NS
 

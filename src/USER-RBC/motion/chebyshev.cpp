@@ -54,7 +54,7 @@ void ChebyshevMethod::set_stages(int s)
 }
 
 void ChebyshevMethod::step(Motion &motion, double dt, const Numbers &start, const Numbers &velocity,
-                           const Path &past, Numbers &x, double begin, double part)
+                           const DisplacementHistory &past, Numbers &x, double begin, double part)
 {
   const std::size_t n = start.size();
   for (auto *vector : {&deviation_, &before_}) vector->assign(n, 0.0);
@@ -62,17 +62,17 @@ void ChebyshevMethod::step(Motion &motion, double dt, const Numbers &start, cons
   rate_ = velocity;
   const auto place = [&](double at) {
     for (std::size_t i = 0; i < n; ++i) x[i] = start[i] + deviation_[i];
-    past.add_to(x, past.place(at * dt), 1);
+    past.add_to(x, past.position_weights(at * dt), 1);
   };
 
   first_rate_ = velocity;
-  past.add_to(first_rate_, past.speed(0), -1);
+  past.add_to(first_rate_, past.velocity_weights(0), -1);
   for (std::size_t i = 0; i < n; ++i) deviation_[i] = dt * stages_[0].base * first_rate_[i];
   for (int j = 1; j < stages(); ++j) {
     const double at = stages_[j - 1].at;
     place(at);
     motion.velocity(x, begin + part * at, rate_);
-    past.add_to(rate_, past.speed(at * dt), -1);
+    past.add_to(rate_, past.velocity_weights(at * dt), -1);
     const Stage &stage = stages_[j];
     for (std::size_t i = 0; i < n; ++i) {
       const double next = stage.mu * deviation_[i] + stage.nu * before_[i] +
@@ -80,17 +80,17 @@ void ChebyshevMethod::step(Motion &motion, double dt, const Numbers &start, cons
       before_[i] = deviation_[i];
       deviation_[i] = next;
     }
-    past.add_to(rate_, past.speed(at * dt), 1);
+    past.add_to(rate_, past.velocity_weights(at * dt), 1);
   }
   place(1);
 }
 
-std::size_t ChebyshevMethod::numbers() const
+std::size_t ChebyshevMethod::bytes() const
 {
   std::size_t sum = 0;
   for (const Numbers *vector : {&rate_, &first_rate_, &deviation_, &before_})
     sum += vector->capacity();
-  return sum;
+  return sum * sizeof(double);
 }
 
 }    // namespace rbc

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "motion/path.h"
+#include "motion/displacement_history.h"
 
 namespace rbc {
 
@@ -17,10 +17,8 @@ class ChebyshevMethod {
   /// `order` 2 or 3.
   explicit ChebyshevMethod(int order = 2);
 
-  int order() const { return order_; }
-
-  /// Steps that a Path must hold.
-  int past_steps() const { return order_ == 2 ? 0 : Path::LONGEST; }
+  /// Steps that a DisplacementHistory must hold.
+  int past_steps() const { return order_ == 2 ? 0 : DisplacementHistory::LONGEST; }
 
   /// Largest time step times spectral radius.
   double stability_limit(int stages) const;
@@ -34,9 +32,9 @@ class ChebyshevMethod {
   /// x = positions a time dt after `start`, where the velocity is `velocity`; stages() - 1 evaluations. The fractions of
   /// the step that the motion hears of begin at `begin` and extend over `part`.
   void step(Motion &motion, double dt, const Numbers &start, const Numbers &velocity,
-            const Path &past, Numbers &x, double begin = 0, double part = 1);
+            const DisplacementHistory &past, Numbers &x, double begin = 0, double part = 1);
 
-  std::size_t numbers() const;
+  std::size_t bytes() const;
 
  private:
   /// Y = mu Y_1 + nu Y_2 + dt (rate V_1 + base V_0), at a fraction `at` of the step, with Y_1 and Y_2 the last two

@@ -78,11 +78,11 @@ void Gmres::rotate(int k)
   rotated_[k] *= cosine_[k];
 }
 
-std::size_t Gmres::numbers() const
+std::size_t Gmres::bytes() const
 {
   std::size_t sum = 0;
   for (const Numbers &vector : basis_) sum += vector.capacity();
-  return sum;
+  return sum * sizeof(double);
 }
 
 }    // namespace rbc

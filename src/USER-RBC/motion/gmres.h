@@ -21,7 +21,7 @@ class Gmres {
                Numbers &y);
 
   int iterations() const { return iterations_; }    ///< of the last solve
-  std::size_t numbers() const;
+  std::size_t bytes() const;
 
  private:
   std::vector<Numbers> basis_;

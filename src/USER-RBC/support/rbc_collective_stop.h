@@ -5,6 +5,7 @@
 #include "error.h"
 #include "pointers.h"
 
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -16,9 +17,9 @@ class CollectiveStop : protected Pointers {
  public:
   using Pointers::Pointers;
 
-  /// What check() throws on all tasks, instead of ending the run, while a step is tried that can be taken again.
-  struct FailedTrial {
-    std::string message;
+  /// While a step is tried that can be taken again, check() throws this on all ranks instead of ending the run.
+  struct FailedTrial : std::runtime_error {
+    using std::runtime_error::runtime_error;
   };
   bool trying = false;
 
@@ -39,7 +40,7 @@ class CollectiveStop : protected Pointers {
     message_.resize(length);
     MPI_Bcast(message_.data(), length, MPI_CHAR, from, world);
     const std::string text = std::exchange(message_, {});
-    if (trying) throw FailedTrial{text};
+    if (trying) throw FailedTrial(text);
     error->all(FLERR, "{}", text);
   }
 

@@ -1,0 +1,361 @@
+#include "fluid/mobility_preconditioner.h"
+
+#include <Eigen/Cholesky>
+
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+namespace fluid {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// Distance of the markers that another depends on, over its distance from the nearest before it; how many at most; ratio
+// of that distance from level to level.
+constexpr double reach = 3;
+constexpr int most_rows = 40;
+constexpr double refinement = 0.75;
+
+// Relative to the spacing of the grid: the slip length, and the radius of the discs in which markers are counted to find
+// how much of the surface each stands for.
+constexpr double slip_length = 0.0003;
+constexpr double disc = 2;
+
+// Added to the mobility of each marker with itself, relative to it.
+constexpr double regularisation = 0.005;
+
+/// Mobility of two Gaussian blobs of standard deviation sigma / sqrt(2) at the distance r:
+///   f I + g r r / r^2, from the Stokeslet (I lap - grad grad) H / (8 pi viscosity),
+/// where H is the distance averaged over both blobs.
+struct BlobPair {
+  double f, g;
+
+  BlobPair(double r, double sigma, double viscosity)
+  {
+    const double factor = 1 / (8 * pi * viscosity), s = r / sigma;
+    const double peak = std::sqrt(2 / pi) / sigma;
+    if (s < 1e-3) {    // the error is of order s^2
+      f = factor * 4.0 / 3.0 * peak;
+      g = 0;
+      return;
+    }
+    const double bell = peak * std::exp(-0.5 * s * s), error = std::erf(s / std::sqrt(2.0)) / r;
+    const double first = error * (1 - 1 / (s * s)) + bell / (s * s);    // H' / r
+    const double second = 2 * (error - first);                          // H''
+    f = factor * (second + first);
+    g = factor * (first - second);
+  }
+};
+
+/// All markers, where distances are those of the nearest images.
+struct Cloud {
+  std::vector<Real3> position;
+  std::vector<int> body;
+  Real3 origin, period;
+  bool periodic[3];
+
+  Real3 apart(int from, int to) const
+  {
+    Real3 r;
+    for (int d = 0; d < 3; ++d) {
+      r[d] = position[to][d] - position[from][d];
+      if (periodic[d]) r[d] -= period[d] * std::round(r[d] / period[d]);
+    }
+    return r;
+  }
+  double distance2(int a, int b) const
+  {
+    const Real3 r = apart(a, b);
+    return r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
+  }
+};
+
+/// Markers in bins of at least a given size.
+class Bins {
+ public:
+  Bins(const Cloud &cloud, double size) : cloud_(cloud)
+  {
+    for (int d = 0; d < 3; ++d) {
+      n_[d] = std::max(1, static_cast<int>(std::min(cloud.period[d] / size, 200.0)));
+      scale_[d] = n_[d] / cloud.period[d];
+    }
+    heads_.assign(std::size_t(n_[0]) * n_[1] * n_[2], -1);
+    next_.assign(cloud.position.size(), -1);
+  }
+
+  void add(int marker)
+  {
+    const auto bin = bin_of(marker);
+    int &head = heads_[(std::size_t(bin[2]) * n_[1] + bin[1]) * n_[0] + bin[0]];
+    next_[marker] = head;
+    head = marker;
+  }
+
+  /// Visits markers near another until visit(marker) is false; returns whether it never was.
+  template <typename Visit> bool near(int marker, Visit visit) const
+  {
+    const auto bin = bin_of(marker);
+    std::array<int, 3> lo, hi;
+    for (int d = 0; d < 3; ++d) {
+      lo[d] = n_[d] < 3 ? 0 : bin[d] - 1;
+      hi[d] = n_[d] < 3 ? n_[d] - 1 : bin[d] + 1;
+    }
+    for (int k = lo[2]; k <= hi[2]; ++k)
+      for (int j = lo[1]; j <= hi[1]; ++j)
+        for (int i = lo[0]; i <= hi[0]; ++i) {
+          const std::array<int, 3> at{wrap(i, 0), wrap(j, 1), wrap(k, 2)};
+          int other = heads_[(std::size_t(at[2]) * n_[1] + at[1]) * n_[0] + at[0]];
+          for (; other >= 0; other = next_[other])
+            if (!visit(other)) return false;
+        }
+    return true;
+  }
+
+ private:
+  const Cloud &cloud_;
+  std::array<int, 3> n_;
+  Real3 scale_;
+  std::vector<int> heads_, next_;
+
+  int wrap(int i, int d) const { return (i % n_[d] + n_[d]) % n_[d]; }
+  std::array<int, 3> bin_of(int marker) const
+  {
+    std::array<int, 3> bin;
+    for (int d = 0; d < 3; ++d)
+      bin[d] = wrap(
+          static_cast<int>(std::floor((cloud_.position[marker][d] - cloud_.origin[d]) * scale_[d])),
+          d);
+    return bin;
+  }
+};
+
+}    // namespace
+
+double marker_radius(KernelKind kernel)
+{
+  return kernel == KernelKind::peskin4 ? 1.25 : 0.91;
+}
+
+void MobilityPreconditioner::build(const Flow &flow, KernelKind kernel, int count,
+                                   const double *position, const int *body)
+{
+  comm_ = flow.decomposition().comm;
+  const int tasks = flow.decomposition().ranks(), me = flow.decomposition().rank;
+  const Grid &grid = flow.grid();
+  count_ = count;
+  numbers_.resize(tasks);
+  offsets_.resize(tasks);
+  std::vector<int> counts(tasks), firsts(tasks);
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm_);
+  for (int r = 0; r < tasks; ++r) {
+    numbers_[r] = 3 * counts[r];
+    firsts[r] = r > 0 ? firsts[r - 1] + counts[r - 1] : 0;
+    offsets_[r] = 3 * firsts[r];
+  }
+  first_ = firsts[me];
+  const int all = firsts[tasks - 1] + counts[tasks - 1];
+  all_.resize(3 * std::size_t(all));
+  sums_.resize(all_.size());
+
+  Cloud cloud;
+  cloud.position.resize(all);
+  cloud.body.resize(all);
+  cloud.origin = grid.origin;
+  for (int d = 0; d < 3; ++d) {
+    cloud.period[d] = grid.cells[d] * grid.spacing[d];
+    cloud.periodic[d] = d < 2 || !grid.plates;
+  }
+  MPI_Allgatherv(position, 3 * count, MPI_DOUBLE, cloud.position.data(), numbers_.data(),
+                 offsets_.data(), MPI_DOUBLE, comm_);
+  MPI_Allgatherv(body, count, MPI_INT, cloud.body.data(), counts.data(), firsts.data(), MPI_INT,
+                 comm_);
+
+  // in an order that does not depend on who owns which
+  std::vector<int> waiting(all);
+  std::iota(waiting.begin(), waiting.end(), 0);
+  std::sort(waiting.begin(), waiting.end(), [&](int a, int b) {
+    return std::tie(cloud.body[a], cloud.position[a]) < std::tie(cloud.body[b], cloud.position[b]);
+  });
+
+  const double h = std::cbrt(grid.cell_volume()), radius = marker_radius(kernel) * h;
+  std::vector<std::vector<int>> columns(count);    // the marker itself first
+  std::vector<int> before, now;
+  double spacing = 0.5 * *std::max_element(cloud.period.begin(), cloud.period.end());
+  for (; !waiting.empty(); spacing *= refinement) {
+    // markers of this level: not nearer to each other, and to those of earlier levels, than the spacing
+    const bool last = spacing < 0.1 * h;
+    Bins sparse(cloud, spacing);
+    for (int marker : before) sparse.add(marker);
+    now.clear();
+    auto left = waiting.begin();
+    for (int marker : waiting) {
+      const bool free = last || sparse.near(marker, [&](int other) {
+        return cloud.body[other] != cloud.body[marker] ||
+               cloud.distance2(marker, other) >= spacing * spacing;
+      });
+      if (free) {
+        sparse.add(marker);
+        now.push_back(marker);
+      } else
+        *left++ = marker;
+    }
+    waiting.erase(left, waiting.end());
+
+    const double far = reach * spacing;
+    Bins wide(cloud, far);
+    for (int marker : before) wide.add(marker);
+    std::vector<std::pair<double, int>> found;
+    for (int marker : now) {
+      const int mine = marker - first_;
+      if (mine >= 0 && mine < count) {
+        found.clear();
+        wide.near(marker, [&](int other) {
+          const double r2 = cloud.distance2(marker, other);
+          if (cloud.body[other] == cloud.body[marker] && r2 <= far * far)
+            found.emplace_back(r2, other);
+          return true;
+        });
+        const std::size_t keep = std::min<std::size_t>(found.size(), most_rows);
+        std::partial_sort(found.begin(), found.begin() + keep, found.end());
+        columns[mine] = {marker};
+        for (std::size_t n = 0; n < keep; ++n) columns[mine].push_back(found[n].second);
+      }
+      wide.add(marker);
+    }
+    before.insert(before.end(), now.begin(), now.end());
+  }
+
+  const double disc_area = pi * disc * disc * h * h;
+  const double slip = slip_length * h / flow.equations().viscosity;
+  std::vector<double> areas(all), compliances(all);
+  Bins close(cloud, disc * h);
+  for (int marker = 0; marker < all; ++marker) close.add(marker);
+  const auto for_each_close = [&](int marker, auto visit) {
+    close.near(marker, [&](int other) {
+      if (cloud.body[other] == cloud.body[marker] &&
+          cloud.distance2(marker, other) < disc * disc * h * h)
+        visit(other);
+      return true;
+    });
+  };
+  for (int marker = 0; marker < all; ++marker) {
+    int inside = 0;
+    for_each_close(marker, [&](int) { ++inside; });
+    areas[marker] = disc_area / inside;
+    compliances[marker] = slip / areas[marker];
+  }
+  other_compliance_ = slip / disc_area;
+  own_compliance_.clear();
+  disc_.clear();
+  disc_starts_.assign(1, 0);
+  for (int n = 0; n < count; ++n) {
+    double covered = 0;
+    for_each_close(first_ + n, [&](int other) {
+      disc_.push_back(other);
+      covered += areas[other];
+    });
+    disc_starts_.push_back(static_cast<int>(disc_.size()));
+    own_compliance_.push_back(other_compliance_ * covered / areas[first_ + n]);
+  }
+
+  starts_.assign(1, 0);
+  rows_.clear();
+  blocks_.clear();
+  std::size_t rows = 0;
+  for (const auto &column : columns) rows += column.size();
+  rows_.reserve(rows);
+  blocks_.reserve(9 * rows);
+  std::vector<Real3> apart;
+  std::vector<double> yielding;
+  for (int n = 0; n < count; ++n) {
+    apart.clear();
+    yielding.clear();
+    for (int row : columns[n]) {
+      apart.push_back(cloud.apart(first_ + n, row));
+      yielding.push_back(compliances[row]);
+    }
+    rows_.insert(rows_.end(), columns[n].begin(), columns[n].end());
+    starts_.push_back(static_cast<int>(rows_.size()));
+    add_column(apart, yielding, flow.equations().viscosity, radius);
+  }
+}
+
+/// With the mobility M of the markers of a column, E those of its first: M^-1 E C^-T, where C C^T = E^T M^-1 E.
+void MobilityPreconditioner::add_column(const std::vector<Real3> &apart,
+                                        const std::vector<double> &compliance, double viscosity,
+                                        double radius)
+{
+  const double sigma = std::sqrt(2 / pi) * radius;    // the same mobility of one blob
+  const double extra = regularisation / (6 * pi * viscosity * radius);
+  const int n = static_cast<int>(apart.size());
+  Eigen::MatrixXd mobility(3 * n, 3 * n);
+  for (int a = 0; a < n; ++a)
+    for (int b = 0; b <= a; ++b) {
+      const Eigen::Vector3d r = Eigen::Map<const Eigen::Vector3d>(apart[a].data()) -
+                                Eigen::Map<const Eigen::Vector3d>(apart[b].data());
+      const double distance = r.norm();
+      const BlobPair pair(distance, sigma, viscosity);
+      Eigen::Matrix3d block = pair.f * Eigen::Matrix3d::Identity();
+      if (distance > 0) block += pair.g / (distance * distance) * r * r.transpose();
+      if (a == b) block.diagonal().array() += extra + compliance[a];
+      mobility.block<3, 3>(3 * a, 3 * b) = block;
+    }
+  Eigen::MatrixXd column = Eigen::MatrixXd::Zero(3 * n, 3);
+  column.topRows<3>().setIdentity();
+  mobility.llt().solveInPlace(column);
+  const Eigen::Matrix3d root = Eigen::Matrix3d(column.topRows<3>()).llt().matrixL();
+  column = root.triangularView<Eigen::Lower>().solve(column.transpose()).transpose().eval();
+  for (int a = 0; a < n; ++a)
+    for (int e = 0; e < 3; ++e)
+      for (int d = 0; d < 3; ++d) blocks_.push_back(static_cast<float>(column(3 * a + d, e)));
+}
+
+void MobilityPreconditioner::apply(const double *velocity, double *force)
+{
+  MPI_Allgatherv(velocity, 3 * count_, MPI_DOUBLE, all_.data(), numbers_.data(), offsets_.data(),
+                 MPI_DOUBLE, comm_);
+  std::fill(sums_.begin(), sums_.end(), 0.0);
+  for (int n = 0; n < count_; ++n) {
+    double t[3] = {0, 0, 0};
+    for (int m = starts_[n]; m < starts_[n + 1]; ++m) {
+      const double *const u = all_.data() + 3 * std::size_t(rows_[m]);
+      const float *const b = &blocks_[9 * std::size_t(m)];
+      for (int e = 0; e < 3; ++e)
+        t[e] += b[3 * e] * u[0] + b[3 * e + 1] * u[1] + b[3 * e + 2] * u[2];
+    }
+    for (int m = starts_[n]; m < starts_[n + 1]; ++m) {
+      double *const f = sums_.data() + 3 * std::size_t(rows_[m]);
+      const float *const b = &blocks_[9 * std::size_t(m)];
+      for (int d = 0; d < 3; ++d) f[d] += b[d] * t[0] + b[3 + d] * t[1] + b[6 + d] * t[2];
+    }
+  }
+  if (numbers_.size() > 1)
+    MPI_Allreduce(MPI_IN_PLACE, sums_.data(), static_cast<int>(sums_.size()), MPI_DOUBLE, MPI_SUM,
+                  comm_);
+  std::copy_n(sums_.data() + 3 * std::size_t(first_), 3 * count_, force);
+}
+
+void MobilityPreconditioner::apply_compliance(const double *force, double *velocity)
+{
+  MPI_Allgatherv(force, 3 * count_, MPI_DOUBLE, all_.data(), numbers_.data(), offsets_.data(),
+                 MPI_DOUBLE, comm_);
+  for (int n = 0; n < count_; ++n)
+    for (int d = 0; d < 3; ++d) {
+      double others = 0;
+      for (int m = disc_starts_[n]; m < disc_starts_[n + 1]; ++m)
+        others += all_[3 * std::size_t(disc_[m]) + d];
+      velocity[3 * n + d] = own_compliance_[n] * force[3 * n + d] - other_compliance_ * others;
+    }
+}
+
+std::size_t MobilityPreconditioner::bytes() const
+{
+  return (starts_.capacity() + rows_.capacity() + disc_starts_.capacity() + disc_.capacity()) *
+             sizeof(int) +
+         blocks_.capacity() * sizeof(float) +
+         (all_.capacity() + sums_.capacity() + own_compliance_.capacity()) * sizeof(double);
+}
+
+}    // namespace fluid

@@ -1,0 +1,44 @@
+#include "cells/rbc_group_cells.h"
+
+#include "atom.h"
+#include "error.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+
+void GroupCells::find(int groupbit)
+{
+  members = all_cell_membranes(lmp);
+  if (members.empty()) error->all(FLERR, "{} needs a fix rbc/membrane: it knows the cells", owner);
+
+  ids.clear();
+  for (CellMembranes *membranes : members) {
+    membranes->local_cells().identify();    // the fix itself may be initialised later
+    const auto &molecules = membranes->local_cells().molecules();
+    ids.insert(ids.end(), molecules.begin(), molecules.end());
+  }
+  std::sort(ids.begin(), ids.end());
+  const auto twice = std::adjacent_find(ids.begin(), ids.end());
+  if (twice != ids.end())
+    error->all(FLERR, "{}: molecule ID {} belongs to more than one fix rbc/membrane", owner,
+               *twice);
+
+  std::vector<int> outside(ids.size());
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const int index = index_of(atom->molecule[i]);
+    if (index >= 0 && !(atom->mask[i] & groupbit)) outside[index] = 1;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, outside.data(), static_cast<int>(outside.size()), MPI_INT, MPI_MAX,
+                world);
+  std::vector<tagint> inside;
+  for (std::size_t n = 0; n < ids.size(); ++n)
+    if (!outside[n]) inside.push_back(ids[n]);
+  ids = std::move(inside);
+}
+
+int GroupCells::index_of(tagint molecule) const
+{
+  const auto found = std::lower_bound(ids.begin(), ids.end(), molecule);
+  return found != ids.end() && *found == molecule ? static_cast<int>(found - ids.begin()) : -1;
+}

@@ -1,0 +1,233 @@
+#include "cells/rbc_near_surfaces.h"
+
+#include "atom.h"
+#include "cells/rbc_cell_membranes.h"
+#include "contact/surface_patches.h"
+#include "domain.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+
+// edges of triangles may be stretched by this factor
+
+static constexpr double STRETCH = 1.5;
+
+// the finder looks no further than this part of what ghosts allow, and once more on the way: lists are shorter by far
+
+static constexpr double FINER = 0.25;
+
+/* ---------------------------------------------------------------------- */
+
+NearSurfaces::NearSurfaces(LAMMPS *lmp, std::string style) :
+    Pointers(lmp), style(std::move(style)), stop(std::make_shared<CollectiveStop>(lmp))
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+void NearSurfaces::init()
+{
+  shapes.clear();
+  cells.clear();
+  for (CellMembranes *membranes : all_cell_membranes(lmp)) {
+    membranes->local_cells().identify();    // the fix itself is initialised later
+    const rbc::SurfaceTemplate &surface = membranes->shape();
+    std::vector<std::vector<int>> led(surface.size());
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+      led[surface.triangles[t][0]].push_back(static_cast<int>(t));
+    shapes.push_back({&surface, std::move(led), {}});
+    if (own_patch > 0) shapes.back().patches = own_patches(surface);
+
+    const auto &molecules = membranes->local_cells().molecules();
+    const auto &first = membranes->local_cells().first_atoms();
+    if (molecules.empty()) continue;
+    cells.resize(std::max<std::size_t>(cells.size(), molecules.back() + 1), {-1, 0});
+    for (std::size_t n = 0; n < molecules.size(); ++n) {
+      if (cells[molecules[n]].shape >= 0)
+        error->all(FLERR, "{}: molecule ID {} belongs to two fixes rbc/membrane", style,
+                   molecules[n]);
+      cells[molecules[n]] = {static_cast<int>(shapes.size()) - 1, first[n]};
+    }
+  }
+  if (shapes.empty())
+    error->all(FLERR, "{} needs a fix rbc/membrane: it knows the cells and their triangles", style);
+}
+
+std::vector<std::vector<int>> NearSurfaces::own_patches(const rbc::SurfaceTemplate &surface) const
+{
+  auto patches = rbc::surface_patches(surface, own_patch);
+  const bool see_something =
+      std::any_of(patches.begin(), patches.end(), [&surface](const auto &patch) {
+        return patch.size() < surface.triangles.size();
+      });
+  if (!see_something && comm->me == 0)
+    error->warning(FLERR, "{} self: cells are too small to see themselves beyond {:.6g}", style,
+                   own_patch);
+  return patches;
+}
+
+double NearSurfaces::longest_edge() const
+{
+  double longest = 0;
+  for (const Shape &shape : shapes) longest = std::max(longest, shape.surface->longest_edge);
+  return STRETCH * longest;
+}
+
+/* ---------------------------------------------------------------------- */
+
+const NearSurfaces::Cell *NearSurfaces::cell_of(int i) const
+{
+  const tagint molecule = atom->molecule[i];
+  if (molecule < 0 || molecule >= static_cast<tagint>(cells.size()) || cells[molecule].shape < 0)
+    return nullptr;
+  const Cell &cell = cells[molecule];
+  const tagint vertex = atom->tag[i] - cell.first;    // others may have the same molecule ID
+  return vertex >= 0 && vertex < shapes[cell.shape].surface->size() ? &cell : nullptr;
+}
+
+const NearSurfaces::Shape *NearSurfaces::shape_of(int i) const
+{
+  const Cell *const cell = cell_of(i);
+  return cell ? &shapes[cell->shape] : nullptr;
+}
+
+double NearSurfaces::area(int i) const
+{
+  const Cell *const cell = cell_of(i);
+  return shapes[cell->shape].surface->vertex_area[atom->tag[i] - cell->first];
+}
+
+/* ----------------------------------------------------------------------
+   ghosts are there up to the ghost cutoff; from an owned vertex it must reach all corners of triangles near it
+------------------------------------------------------------------------- */
+
+double NearSurfaces::longest_known_edge(double range, double slack) const
+{
+  const double ghosts = comm->get_comm_cutoff();
+  double longest = ghosts - range - slack;
+  if (longest < longest_edge() * (1 - 1e-9))
+    error->all(FLERR,
+               "{}: ghost cutoff {:.6g} is too short for surfaces {:.6g} apart; use comm_modify "
+               "cutoff with at least {:.6g}",
+               style, ghosts, range, range + slack + longest_edge());
+  const int periodic[3] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
+  for (int d = 0; d < 3; ++d)
+    if (periodic[d]) longest = std::min(longest, domain->prd[d] / 2);
+  return longest;
+}
+
+void NearSurfaces::build(double range, double slack_of_ghosts, double stale)
+{
+  allowed = slack_of_ghosts / 2;
+  built.hold(atom->x[0], atom->nlocal + atom->nghost);
+  collect_triangles(longest_known_edge(range, slack_of_ghosts + stale));
+  stop->check();
+  molecules.assign(atom->nlocal, rbc::NearTriangles::NO_SURFACE);
+  int points = 0;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if (!cell_of(i)) continue;
+    molecules[i] = atom->molecule[i];
+    points = i + 1;
+  }
+  const double travel = 2 * slack_of_ghosts;    // back and forth
+  rbc::NearTriangles::SeesOwn seen;
+  if (own_patch > 0) seen = [this](int i, int triangle) { return sees_own(i, triangle); };
+  finder.build(points, molecules.data(), atom->nlocal + atom->nghost, atom->x[0], triangles, range,
+               FINER * slack_of_ghosts, travel, seen);
+}
+
+/* ----------------------------------------------------------------------
+   every image of a triangle of which this rank knows the corners, once: with the image of its first corner
+------------------------------------------------------------------------- */
+
+void NearSurfaces::collect_triangles(double longest)
+{
+  triangles.clear();
+  template_triangle.clear();
+  const int all = atom->nlocal + atom->nghost;
+  for (int i = 0; i < all; ++i) {
+    const Cell *const cell = cell_of(i);
+    if (!cell) continue;
+    const Shape &shape = shapes[cell->shape];
+    for (int t : shape.led[atom->tag[i] - cell->first]) {
+      const auto &corners = shape.surface->triangles[t];
+      const int j = image_near(i, cell->first + corners[1], longest);
+      const int k = image_near(i, cell->first + corners[2], longest);
+      if (j >= 0 && k >= 0 && are_near(j, k, longest)) {
+        triangles.push_back({{i, j, k}, atom->molecule[i]});
+        if (own_patch > 0) template_triangle.push_back(t);
+      } else if (i < atom->nlocal)
+        stop->report(fmt::format(
+            "{}: a triangle of the cell with molecule ID {} near ({:.6g}, {:.6g}, {:.6g}) has an "
+            "edge longer than {:.6g} at step {}; it is stretched too far, or raise the ghost "
+            "cutoff {:.6g} with comm_modify cutoff",
+            style, atom->molecule[i], atom->x[i][0], atom->x[i][1], atom->x[i][2], longest,
+            update->ntimestep, comm->get_comm_cutoff()));
+    }
+  }
+}
+
+bool NearSurfaces::sees_own(int i, int triangle) const
+{
+  const Cell *const cell = cell_of(i);
+  const auto &patch = shapes[cell->shape].patches[atom->tag[i] - cell->first];
+  return !std::binary_search(patch.begin(), patch.end(), template_triangle[triangle]);
+}
+
+int NearSurfaces::image_near(int i, tagint id, double longest) const
+{
+  const int j = domain->closest_image(i, atom->map(id));
+  return j >= 0 && are_near(i, j, longest) ? j : -1;
+}
+
+bool NearSurfaces::are_near(int i, int j, double longest) const
+{
+  double square = 0;
+  for (int d = 0; d < 3; ++d) {
+    const double apart = atom->x[j][d] - atom->x[i][d];
+    square += apart * apart;
+  }
+  return square <= longest * longest;
+}
+
+/* ---------------------------------------------------------------------- */
+
+const std::vector<NearSurfaces::Contact> &NearSurfaces::contacts(double range)
+{
+  check_moved();
+  return finder.contacts(atom->x[0], range);
+}
+
+void NearSurfaces::check_moved()
+{
+  const double moved = built.largest_displacement(atom->x[0]);
+  if (!(moved <= allowed)) {
+    const int i = built.furthest_moved(atom->x[0]);
+    const double *const x = atom->x[i];
+    stop->report(fmt::format(
+        "{}: vertices moved by up to {:.4g} since step {}, when their neighbors were found, more "
+        "than {:.6g}, at step {}: cell with molecule ID {} near ({:.6g}, {:.6g}, {:.6g}); raise "
+        "the skin with the neighbor command, or lower the timestep",
+        style, moved, neighbor->lastcall, allowed, update->ntimestep, atom->molecule[i], x[0], x[1],
+        x[2]));
+  }
+  stop->check();
+}
+
+/* ---------------------------------------------------------------------- */
+
+double NearSurfaces::bytes() const
+{
+  double patches = 0;
+  for (const Shape &shape : shapes)
+    for (const auto &patch : shape.patches)
+      patches += sizeof(patch) + patch.capacity() * sizeof(int);
+  return static_cast<double>(finder.bytes() + built.bytes()) + patches +
+         triangles.capacity() * sizeof(rbc::NearTriangles::Triangle) +
+         template_triangle.capacity() * sizeof(int) +
+         molecules.capacity() * sizeof(rbc::NearTriangles::Surface) +
+         cells.capacity() * sizeof(Cell);
+}

@@ -1,0 +1,452 @@
+#include "coupling/rbc_driven_flow.h"
+
+#include "comm.h"
+#include "coupling/rbc_fluid_client.h"
+#include "domain.h"
+#include "error.h"
+#include "fluid/advection.h"
+#include "force.h"
+#include "grid3d.h"
+#include "math_const.h"
+#include "neighbor.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+using namespace LAMMPS_NS;
+
+// explicit advection: the fluid may not cross more cells than this in a step
+
+static constexpr double MAX_COURANT = 1.0;
+
+// cells per step of the flow that probes how a vessel responds
+
+static constexpr double PROBE_COURANT = 0.02;
+
+// reach of the widest kernel beyond the cell of an atom, staggering included
+
+static constexpr int KERNEL_LAYERS = 2;
+
+/* ---------------------------------------------------------------------- */
+
+DrivenFlow::DrivenFlow(LAMMPS *lmp, std::string style, const FluidSettings &settings,
+                       FlowForcing forcing) :
+    Pointers(lmp),
+    style_(std::move(style)), settings_(settings), forcing_(std::move(forcing)),
+    inside_(lmp, "f" + style_.substr(1), settings.inside), stop_(lmp)
+{
+  build();
+}
+
+DrivenFlow::~DrivenFlow() = default;
+
+double DrivenFlow::smallest_spacing() const
+{
+  const auto &h = flow_->grid().spacing;
+  return std::min({h[0], h[1], h[2]});
+}
+
+/* ----------------------------------------------------------------------
+   without vertices none; a vertex leaves its subdomain by half the skin before atoms migrate and
+   by half a cell more within a step, and cells belong to the subdomain of their centres
+------------------------------------------------------------------------- */
+
+int DrivenFlow::layers_needed() const
+{
+  if (!driven_ && !walls_) return 0;
+  const auto &cells = settings_.cells;
+  double layers = 0;
+  for (int d = 0; d < 3; ++d)
+    layers = std::max(layers, 0.5 * neighbor->skin / (domain->prd[d] / cells[d]) + cells_per_step_);
+  return static_cast<int>(std::ceil(layers)) + KERNEL_LAYERS + (sheets_ ? 1 : 0);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void DrivenFlow::build()
+{
+  inside_.forget();
+  const auto &cells = settings_.cells;
+  grid_ = std::make_unique<Grid3d>(lmp, world, cells[0], cells[1], cells[2]);
+  int lo[3], hi[3], outlo[3], outhi[3];
+  grid_->setup_grid(lo[0], hi[0], lo[1], hi[1], lo[2], hi[2], outlo[0], outhi[0], outlo[1],
+                    outhi[1], outlo[2], outhi[2]);
+
+  fluid::Grid staggered;
+  fluid::Box brick;
+  for (int d = 0; d < 3; ++d) {
+    brick.lo[d] = lo[d];
+    brick.hi[d] = hi[d] + 1;
+    staggered.cells[d] = cells[d];
+    staggered.origin[d] = domain->boxlo[d];
+    staggered.spacing[d] = domain->prd[d] / cells[d];
+  }
+  staggered.plates = settings_.plates;
+
+  ghost_layers_ = layers_needed();
+  auto flow = std::make_unique<fluid::Flow>(staggered, fluid::Decomposition(world, brick),
+                                            ghost_layers_, settings_.equations);
+  if (flow_) {
+    earlier_traffic_ = traffic();
+    flow->take_over(*flow_);
+  }
+  flow_ = std::move(flow);
+  changed();
+}
+
+void DrivenFlow::rebuild()
+{
+  build();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void DrivenFlow::start_run(const std::vector<FluidClient *> &clients, const std::string &fluid_id)
+{
+  forcing_.check();
+  inside_.forget();    // the region may be another one
+  take_demands(clients, fluid_id);
+  if (layers_needed() != ghost_layers_) build();
+  start_control();
+}
+
+void DrivenFlow::take_demands(const std::vector<FluidClient *> &clients,
+                              const std::string &fluid_id)
+{
+  driven_ = sheets_ = false;
+  std::vector<WallGroup *> groups;
+  for (FluidClient *client : clients) {
+    if (client->fluid_id() != fluid_id) continue;
+    if (client->drives_flow()) {
+      driven_ = true;
+      cells_per_step_ = client->cells_per_step();
+      sheets_ = client->has_sheets();
+    }
+    if (client->wall_group()) groups.push_back(client->wall_group());
+  }
+  connect_walls(groups);
+}
+
+/* ----------------------------------------------------------------------
+   with walls the mean velocity of a triply periodic box follows from the balance of forces unless
+   it is given
+------------------------------------------------------------------------- */
+
+void DrivenFlow::connect_walls(const std::vector<WallGroup *> &groups)
+{
+  balanced_ = false;
+  if (groups.empty()) {
+    walls_.reset();
+    if (!has_inertia() && settings_.free_mean)
+      error->all(FLERR, "Fix rbc/fluid mean force needs inertia unsteady or convective, or a fix "
+                        "rbc/wall: without them a net force has nothing to accelerate or to act "
+                        "on");
+    warn_of_idle_forcing();
+    return;
+  }
+  if (has_inertia())
+    error->all(FLERR, "{} needs {} inertia none", groups.front()->style(), inside_.style());
+  balanced_ = !settings_.plates && !settings_.prescribed_mean;
+  if (!walls_) walls_ = std::make_unique<RigidWalls>(lmp);
+  walls_->connect(groups, balanced_);
+}
+
+void DrivenFlow::warn_of_idle_forcing() const
+{
+  if (!holds_box_mean() || comm->me != 0) return;
+  if (controls_flow_rate()) {
+    if (!settings_.inside.empty())
+      error->warning(FLERR,
+                     "{} inside {}: there is no fix rbc/wall to keep the flow inside, that of the "
+                     "whole box is held",
+                     style_, settings_.inside);
+    return;
+  }
+  for (const NumberOrVariable &component : forcing_.body)
+    if (component.is_variable() || component.value(lmp) != 0) {
+      error->warning(FLERR, "Fix rbc/fluid body has no effect in a triply periodic box whose "
+                            "mean velocity is held: a pressure gradient balances it");
+      break;
+    }
+}
+
+bool DrivenFlow::holds_box_mean() const
+{
+  return !settings_.plates && settings_.equations.hold_mean && !balanced_;
+}
+
+/* ----------------------------------------------------------------------
+   the first control input is the body force that gives Poiseuille flow in a round tube of the
+   vessel's mean cross-section, slow enough for atoms in throats
+------------------------------------------------------------------------- */
+
+void DrivenFlow::start_control()
+{
+  if (!controls_flow_rate()) return;
+  const double section = inside_.volume(*flow_) / domain->prd[forcing_.held_direction()];
+  const double velocity = PROBE_COURANT * smallest_spacing() / update->dt;
+  const bool by_mean = holds_box_mean();
+  const double body = 8 * MathConst::MY_PI * settings_.equations.viscosity * velocity / section;
+  forcing_.start_control(by_mean, by_mean ? velocity : body);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void DrivenFlow::set_forcing(const fluid::Forcing &forcing)
+{
+  forcing_now_ = solved_forcing_ = forcing;
+}
+
+void DrivenFlow::set_time_at_setup()
+{
+  ++version_;
+  if (has_inertia() && forcing_.is_known())
+    set_forcing(forcing_.end());
+  else
+    set_time_now();
+}
+
+void DrivenFlow::set_time_now()
+{
+  fraction_ = 1;
+  set_forcing(forcing_.evaluate());
+}
+
+void DrivenFlow::begin_step(bool again)
+{
+  if (controls_flow_rate() && !again) forcing_.measured(mean_inside()[forcing_.held_direction()]);
+  forcing_.begin_step(again);
+  if (walls_) walls_->begin_step(again);
+}
+
+void DrivenFlow::set_time(double fraction)
+{
+  place_walls(fraction);
+  set_forcing(forcing_.at(fraction));
+}
+
+void DrivenFlow::place_walls(double fraction)
+{
+  fraction_ = fraction;
+  if (walls_) walls_->place(fraction);
+}
+
+bool DrivenFlow::correct_flow_rate()
+{
+  forcing_.measured(mean_inside()[forcing_.held_direction()]);
+  set_time_now();
+  return forcing_.probing();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void DrivenFlow::clear_force()
+{
+  spreading_.start();
+  flow_->clear_force();
+  marker_force_ = {};
+  spreading_.stop();
+}
+
+int DrivenFlow::spread(const fluid::MarkerSet &markers, const double *force, double factor)
+{
+  spreading_.start();
+  const int outside = flow_->spread(markers, force, factor);
+  spreading_.stop();
+  if (walls_)
+    for (int n = 0; n < markers.count; ++n)
+      for (int d = 0; d < 3; ++d)
+        marker_force_[d] += force[3 * std::ptrdiff_t(markers.index[n]) + d] * factor;
+  return outside;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void DrivenFlow::solve(CollectiveStop &stop, bool with_walls)
+{
+  const bool walls = walls_ && with_walls;
+  fluid::Forcing uniform = forcing_now_;
+  if (walls) spread_walls(uniform, stop);
+  if (flow_->has_force()) {
+    stop.check();
+    exchanging_.start();
+    flow_->accumulate_ghosts();
+    exchanging_.stop();
+  }
+
+  solving_.start();
+  if (has_inertia())
+    flow_->start_step(update->dt, uniform);
+  else
+    flow_->solve(uniform);
+  solving_.stop();
+
+  if (walls) {
+    walls_->enforce(*flow_);
+    if (balanced_) uniform.mean = walls_->mean();
+  }
+  solved_forcing_ = uniform;
+  if (!has_inertia()) changed();
+}
+
+/* ----------------------------------------------------------------------
+   the body force acts inside only: shear on the outer side would enlarge the walls' hydrodynamic
+   offset
+------------------------------------------------------------------------- */
+
+void DrivenFlow::spread_walls(fluid::Forcing &uniform, CollectiveStop &stop)
+{
+  std::array<double, 3> others = marker_force_;
+  const double volume = inside_.volume(*flow_);
+  if (comm->me == 0)
+    for (int d = 0; d < 3; ++d) others[d] += uniform.body[d] * volume;
+  if (auto *const interior = inside_.find(*flow_)) {
+    interior->add_force(*flow_, uniform.body);
+    uniform.body = {0, 0, 0};
+  }
+  const double end = update->atime + (update->ntimestep - update->atimestep) * update->dt;
+  walls_->spread(*flow_, end - (1 - fraction_) * update->dt, others, stop);
+  if (balanced_) uniform.mean = walls_->mean();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void DrivenFlow::interpolate(const fluid::MarkerSet &markers, double *velocity)
+{
+  exchanging_.start();
+  flow_->fill_ghosts();
+  exchanging_.stop();
+
+  interpolating_.start();
+  flow_->interpolate(markers, velocity);
+  interpolating_.stop();
+}
+
+fluid::DirectForcing::Outcome
+DrivenFlow::couple_masses(fluid::DirectForcing &direct,
+                          const fluid::DirectForcing::Problem &problem)
+{
+  solving_.start();
+  const auto outcome = direct.advance(*flow_, update->dt, forcing_now_, problem);
+  solving_.stop();
+  return outcome;
+}
+
+int DrivenFlow::apply_mobility(const fluid::MarkerSet &markers, const double *force,
+                               double *velocity)
+{
+  solving_.start();
+  const int outside = flow_->apply_mobility(markers, force, velocity);
+  solving_.stop();
+  return outside;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void DrivenFlow::finish_step()
+{
+  if (!has_inertia()) return;
+  solving_.start();
+  set_forcing(forcing_.end());
+  flow_->finish_step(forcing_now_);
+  solving_.stop();
+  changed();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void DrivenFlow::changed()
+{
+  ++version_;
+  if (settings_.equations.inertia == fluid::Inertia::convective) check_courant();
+}
+
+void DrivenFlow::check_courant()
+{
+  const auto fastest = fluid::fastest_cell(flow_->grid(), flow_->brick(), flow_->velocity());
+  const double courant = fastest.rate * update->dt;
+  if (!(courant <= MAX_COURANT)) {
+    double x[3];
+    for (int d = 0; d < 3; ++d)
+      x[d] = domain->boxlo[d] + (fastest.cell[d] + 0.5) * flow_->grid().spacing[d];
+    const std::string place = fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]);
+    if (std::isfinite(courant))
+      stop_.report(fmt::format("{}: the fluid at {} crosses {:.3g} cells in a step at step {} (CFL "
+                               "above {}; timestep too large for inertia convective)",
+                               style_, place, courant, update->ntimestep, MAX_COURANT));
+    else
+      stop_.report(fmt::format("{}: the velocity of the fluid at {} is not a number at step {}",
+                               style_, place, update->ntimestep));
+  }
+  stop_.check();
+}
+
+/* ---------------------------------------------------------------------- */
+
+const fluid::FlowDiagnostics &DrivenFlow::diagnostics()
+{
+  if (diagnosed_version_ != version_) diagnostics_ = fluid::diagnose(*flow_, solved_forcing_);
+  diagnosed_version_ = version_;
+  return diagnostics_;
+}
+
+const std::array<double, 3> &DrivenFlow::mean_inside()
+{
+  return settings_.inside.empty() ? diagnostics().mean_velocity
+                                  : inside_.mean_velocity(*flow_, version_);
+}
+
+double DrivenFlow::driving_force(int d) const
+{
+  double density = forcing_.end().body[d];
+  if (holds_box_mean() && !has_inertia()) density = -flow_->mean_force()[d];
+  return density / force->ftm2v;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void DrivenFlow::count_from_here()
+{
+  first_traffic_ = traffic();
+  first_solve_ = solves();
+  first_step_ = update->ntimestep;
+  if (walls_) walls_->reset_counts();
+}
+
+bigint DrivenFlow::steps_counted() const
+{
+  return update->ntimestep - first_step_;
+}
+
+fluid::Traffic DrivenFlow::traffic() const
+{
+  const fluid::Traffic now = flow_->traffic();
+  return {earlier_traffic_.messages + now.messages, earlier_traffic_.bytes + now.bytes};
+}
+
+std::string DrivenFlow::costs() const
+{
+  const fluid::Traffic now = traffic();
+  double sums[3] = {double(now.messages - first_traffic_.messages),
+                    double(now.bytes - first_traffic_.bytes), double(flow_->bytes())};
+  MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, world);
+  const double steps = static_cast<double>(std::max<bigint>(steps_counted(), 1));
+  const double each = 1.0 / (steps * comm->nprocs);
+  return fmt::format(
+      "Fluid: {:.4g} messages and {:.4g} bytes per step and MPI task, {:.4g} bytes of "
+      "memory per cell\n",
+      sums[0] * each, sums[1] * each, sums[2] / flow_->grid().size());
+}
+
+std::vector<StepPart::Section> DrivenFlow::sections()
+{
+  std::vector<Section> sections = {{"Spread", &spreading_},
+                                   {"Solve", &solving_},
+                                   {"Interpolate", &interpolating_},
+                                   {"Exchange", &exchanging_}};
+  if (walls_)
+    for (const Section &section : walls_->sections()) sections.push_back(section);
+  return sections;
+}

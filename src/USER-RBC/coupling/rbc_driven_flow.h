@@ -1,0 +1,173 @@
+#ifndef LMP_RBC_DRIVEN_FLOW_H
+#define LMP_RBC_DRIVEN_FLOW_H
+
+#include "coupling/rbc_flow_forcing.h"
+#include "coupling/rbc_flow_inside.h"
+#include "coupling/rbc_fluid_settings.h"
+#include "coupling/rbc_rigid_walls.h"
+#include "fluid/diagnostics.h"
+#include "fluid/direct_forcing.h"
+#include "support/rbc_step_part.h"
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class FluidClient;
+
+/// A flow and all that acts on it: forcing, the region inside of which the body force acts, walls of atoms, and the time
+/// within a step. An evaluation is
+///   clear_force, spread, solve, interpolate, finish_step
+/// and may be made any number of times for the same step and time.
+class DrivenFlow : public StepPart, protected Pointers {
+ public:
+  /// `style` names the fix in errors.
+  DrivenFlow(LAMMPS *lmp, std::string style, const FluidSettings &settings, FlowForcing forcing);
+  ~DrivenFlow() override;
+
+  const FluidSettings &settings() const { return settings_; }
+  fluid::Flow &flow() { return *flow_; }
+  const fluid::Flow &flow() const { return *flow_; }
+  class Grid3d *grid() const { return grid_.get(); }
+  bool has_inertia() const { return settings_.equations.inertia != fluid::Inertia::none; }
+  double smallest_spacing() const;
+
+  /// Collective, at the start of a run: takes in the clients' demands and walls.
+  void start_run(const std::vector<FluidClient *> &clients, const std::string &fluid_id);
+
+  /// Collective: LAMMPS's subdomains are others.
+  void rebuild();
+
+  /// A client advances the flow.
+  bool is_driven() const { return driven_; }
+  RigidWalls *walls() { return walls_.get(); }
+  const RigidWalls *walls() const { return walls_.get(); }
+
+  /// Something changes the flow from step to step even without markers.
+  bool varies() const { return forcing_.varies() || (walls_ && walls_->moves()); }
+
+  // Time. Collective where forcing or walls depend on variables.
+
+  /// A flow that has made steps goes on from the forcing at the end of the last, though variables may jump between runs.
+  void set_time_at_setup();
+
+  /// To the end of the step that LAMMPS is at.
+  void set_time_now();
+
+  /// The step that begins; `again` if it is made once more, with another timestep.
+  void begin_step(bool again);
+
+  /// Forcing and walls at a fraction of the step that has begun.
+  void set_time(double fraction);
+
+  /// Walls at the end of the step.
+  void place_walls(double fraction);
+
+  /// The mean velocity inside a vessel is held. correct_flow_rate() adjusts the forcing by what the last solve gave, and
+  /// returns whether the next one is a probe of the response. Collective.
+  bool controls_flow_rate() const { return forcing_.held_direction() >= 0; }
+  bool correct_flow_rate();
+
+  // An evaluation. Collective but for clear_force and spread.
+
+  void clear_force();
+
+  /// Adds forces of markers, times a factor. Returns the first marker whose kernel leaves the ghost layers, or -1.
+  int spread(const fluid::MarkerSet &markers, const double *force, double factor);
+
+  /// Solves for the flow of all forces, forcing and walls, and what was reported to `stop` ends the run before. With
+  /// inertia it starts a step of the fluid, whose velocity is then that of the middle. Without walls the velocity is as
+  /// if they were not there.
+  void solve(CollectiveStop &stop, bool with_walls = true);
+
+  void interpolate(const fluid::MarkerSet &markers, double *velocity);
+
+  /// Takes the place of clear_force, spread, solve and interpolate for markers with mass; with inertia only.
+  fluid::DirectForcing::Outcome couple_masses(fluid::DirectForcing &direct,
+                                              const fluid::DirectForcing::Problem &problem);
+
+  /// Velocities at the markers that further forces on them would add, without walls. Returns what spread does.
+  int apply_mobility(const fluid::MarkerSet &markers, const double *force, double *velocity);
+
+  /// With inertia: the end of the fluid's step. Without: nothing.
+  void finish_step();
+
+  /// The flow was changed by others, who used flow().
+  void changed();
+
+  // output; collective
+
+  /// The force density that acts everywhere in the grid.
+  const std::array<double, 3> &uniform_force() const { return solved_forcing_.body; }
+
+  bigint version() const { return version_; }
+  bigint solves() const { return flow_->solves() + earlier_solves_; }
+  void set_earlier_solves(bigint solves) { earlier_solves_ = solves; }
+  const fluid::FlowDiagnostics &diagnostics();
+  const std::array<double, 3> &mean_inside();
+  double inside_volume() { return inside_.volume(*flow_); }
+
+  /// Body force, or the pressure gradient that balances all forces where the mean velocity is held; force density.
+  double driving_force(int d) const;
+
+  void count_from_here();
+  bigint solves_counted() const { return solves() - first_solve_; }
+  bigint steps_counted() const;
+
+  /// Messages, bytes and memory since count_from_here(), as a line of text.
+  std::string costs() const;
+
+  void report_to(const std::shared_ptr<CollectiveStop> & /*driver*/) override {}
+  std::vector<Section> sections() override;
+
+ private:
+  std::string style_;
+  FluidSettings settings_;
+  FlowForcing forcing_;
+  FlowInside inside_;
+  std::unique_ptr<Grid3d> grid_;
+  std::unique_ptr<fluid::Flow> flow_;
+  std::unique_ptr<RigidWalls> walls_;    ///< null without walls
+  CollectiveStop stop_;
+
+  // demands of the clients
+  bool driven_ = false, sheets_ = false;
+  double cells_per_step_ = 1;
+  int ghost_layers_ = -1;
+  bool balanced_ = false;    ///< the mean velocity follows from the forces of walls
+
+  // time
+  double fraction_ = 1;              ///< of the step
+  fluid::Forcing forcing_now_;       ///< at that time
+  fluid::Forcing solved_forcing_;    ///< of the last solve: what acts everywhere in the grid
+
+  // an evaluation
+  std::array<double, 3> marker_force_{};    ///< sum of this rank's, where walls balance it
+
+  bigint version_ = 0, diagnosed_version_ = -1;    ///< of the velocity
+  fluid::FlowDiagnostics diagnostics_;
+  bigint earlier_solves_ = 0;         ///< before a restart
+  fluid::Traffic earlier_traffic_;    ///< on earlier decompositions
+  fluid::Traffic first_traffic_;      ///< at count_from_here()
+  bigint first_step_ = 0, first_solve_ = 0;
+  rbc::Stopwatch spreading_, exchanging_, solving_, interpolating_;
+
+  int layers_needed() const;
+  void build();
+  void take_demands(const std::vector<FluidClient *> &clients, const std::string &fluid_id);
+  void connect_walls(const std::vector<WallGroup *> &groups);
+  void warn_of_idle_forcing() const;
+  void start_control();
+  bool holds_box_mean() const;
+  void set_forcing(const fluid::Forcing &forcing);
+  void spread_walls(fluid::Forcing &uniform, CollectiveStop &stop);
+  void check_courant();
+  fluid::Traffic traffic() const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,115 @@
+#include "coupling/rbc_flow_forcing.h"
+
+#include "error.h"
+#include "force.h"
+#include "modify.h"
+#include "update.h"
+
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+/* ---------------------------------------------------------------------- */
+
+FlowForcing::FlowForcing(LAMMPS *lmp, std::string style) : Pointers(lmp), style_(std::move(style))
+{
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FlowForcing::hold_inside(int direction, const NumberOrVariable &velocity)
+{
+  held_direction_ = direction;
+  held_velocity_ = velocity;
+}
+
+void FlowForcing::start_control(bool by_mean, double probe)
+{
+  by_mean_ = by_mean;
+  is_measured_ = false;
+  control_.probe(probe);
+}
+
+void FlowForcing::measured(double inside_velocity)
+{
+  measured_ = inside_velocity;
+  is_measured_ = true;
+}
+
+void FlowForcing::control()
+{
+  const double wanted = held_velocity_.value(lmp);
+  if (is_measured_) control_.adjust(measured_, wanted);
+  is_measured_ = false;
+  (by_mean_ ? end_.mean : end_.body)[held_direction_] = control_.input();
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool FlowForcing::varies() const
+{
+  if (held_direction_ >= 0) return true;
+  for (const Vector *vector : {&lower, &upper, &body, &mean})
+    for (const NumberOrVariable &component : *vector)
+      if (component.is_variable()) return true;
+  return false;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FlowForcing::check() const
+{
+  for (const Vector *vector : {&lower, &upper, &body, &mean})
+    for (const NumberOrVariable &component : *vector) component.check(lmp, "fix rbc/fluid");
+  held_velocity_.check(lmp, "fix rbc/fluid");
+}
+
+/* ---------------------------------------------------------------------- */
+
+const fluid::Forcing &FlowForcing::evaluate()
+{
+  if (known_ && !varies()) return end_;
+  known_ = true;
+  modify->clearstep_compute();
+  for (int d = 0; d < 3; ++d) {
+    end_.plates.lower[d] = lower[d].value(lmp);
+    end_.plates.upper[d] = upper[d].value(lmp);
+    end_.body[d] = body[d].value(lmp) * force->ftm2v;
+    end_.mean[d] = mean[d].value(lmp);
+  }
+  if (held_direction_ >= 0) control();
+  modify->addstep_compute(update->ntimestep + 1);
+
+  for (const auto *vector : {&end_.plates.lower, &end_.plates.upper, &end_.body, &end_.mean})
+    for (double component : *vector)
+      if (!std::isfinite(component))
+        error->all(FLERR,
+                   "{}: a plate velocity, body force or mean velocity is not a number at step {}",
+                   style_, update->ntimestep);
+  return end_;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FlowForcing::begin_step(bool again)
+{
+  if (!again) start_ = end_;
+  evaluate();
+}
+
+/* ---------------------------------------------------------------------- */
+
+fluid::Forcing FlowForcing::at(double fraction) const
+{
+  const auto mix = [fraction](double start, double end) {
+    return start + fraction * (end - start);
+  };
+  fluid::Forcing forcing;
+  for (int d = 0; d < 3; ++d) {
+    forcing.plates.lower[d] = mix(start_.plates.lower[d], end_.plates.lower[d]);
+    forcing.plates.upper[d] = mix(start_.plates.upper[d], end_.plates.upper[d]);
+    forcing.body[d] = mix(start_.body[d], end_.body[d]);
+    forcing.mean[d] = mix(start_.mean[d], end_.mean[d]);
+  }
+  return forcing;
+}

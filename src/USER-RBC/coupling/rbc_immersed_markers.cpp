@@ -1,0 +1,283 @@
+#include "coupling/rbc_immersed_markers.h"
+
+#include "angle.h"
+#include "atom.h"
+#include "bond.h"
+#include "cells/rbc_cell_membranes.h"
+#include "comm.h"
+#include "coupling/rbc_driven_flow.h"
+#include "coupling/rbc_massive_markers.h"
+#include "dihedral.h"
+#include "domain.h"
+#include "force.h"
+#include "improper.h"
+#include "kspace.h"
+#include "modify.h"
+#include "pair.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+using namespace LAMMPS_NS;
+using rbc::Numbers;
+
+/* ---------------------------------------------------------------------- */
+
+ImmersedMarkers::ImmersedMarkers(LAMMPS *lmp, std::string style, int groupbit,
+                                 const Settings &settings) :
+    Pointers(lmp),
+    style_(std::move(style)), groupbit_(groupbit), settings_(settings), viscosity_(lmp, *this),
+    stop_(std::make_shared<CollectiveStop>(lmp))
+{
+}
+
+ImmersedMarkers::~ImmersedMarkers() = default;
+
+void ImmersedMarkers::start_run(DrivenFlow *flow, const std::vector<CellMembranes *> &membranes,
+                                fluid::MarkerKind kind)
+{
+  flow_ = flow;
+  kind_ = kind;
+  volume_keepers_.clear();
+  for (CellMembranes *cells : membranes)
+    if (cells->keeps_volume()) volume_keepers_.push_back(cells);
+  viscosity_.start_run(flow, membranes);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ImmersedMarkers::find_members()
+{
+  members_.clear();
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit_) members_.push_back(i);
+}
+
+bigint ImmersedMarkers::count() const
+{
+  bigint mine = static_cast<bigint>(members_.size()), all;
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  return all;
+}
+
+fluid::MarkerSet ImmersedMarkers::set() const
+{
+  return {settings_.kernel, kind_, static_cast<int>(members_.size()), members_.data(),
+          rows(atom->x)};
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ImmersedMarkers::load(double **array, Numbers &numbers, int column) const
+{
+  numbers.resize(3 * members_.size());
+  for (std::size_t n = 0; n < members_.size(); ++n)
+    for (int d = 0; d < 3; ++d) numbers[3 * n + d] = array[members_[n]][column + d];
+}
+
+void ImmersedMarkers::store(const Numbers &numbers, double **array, int column) const
+{
+  for (std::size_t n = 0; n < members_.size(); ++n)
+    for (int d = 0; d < 3; ++d) array[members_[n]][column + d] = numbers[3 * n + d];
+}
+
+void ImmersedMarkers::sum(double *values, int count) const
+{
+  MPI_Allreduce(MPI_IN_PLACE, values, count, MPI_DOUBLE, MPI_SUM, world);
+}
+
+std::int64_t ImmersedMarkers::label(std::size_t point) const
+{
+  return atom->tag[members_[point]];
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ImmersedMarkers::velocity(const Numbers &x, double fraction, Numbers &v)
+{
+  store(x, atom->x);
+  if (estimating_spectrum_) std::fill(v.begin(), v.end(), 0.0);
+  store(v, atom->v);
+  check_positions();
+  flow_->set_time(fraction);
+  recompute_forces();
+  velocities_from_forces(Stage::within);
+  load(atom->v, v);
+}
+
+/* ----------------------------------------------------------------------
+   with inertia the atoms' velocities are those in the middle of the last step, and only a step of
+   the fluid tells more (fluid velocities at the end of a step may ring, see Crank-Nicolson)
+------------------------------------------------------------------------- */
+
+void ImmersedMarkers::velocity_at_start(const Numbers & /*x*/, Numbers &v)
+{
+  if (!flow_->has_inertia()) return;
+  flow_->set_time(0.5);
+  velocities_from_forces(Stage::within);
+  load(atom->v, v);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ImmersedMarkers::velocities_from_forces(Stage stage)
+{
+  if (viscosity_.is_any() && !estimating_spectrum_)
+    viscosity_.solve(stage);
+  else
+    velocities_of_flow(stage);
+  check_velocities(stage);
+  flow_->finish_step();
+}
+
+void ImmersedMarkers::velocities_of_flow(Stage stage)
+{
+  if (masses_)
+    masses_->couple(*this, *flow_);
+  else {
+    flow_->clear_force();
+    const int outside = flow_->spread(set(), rows(atom->f), force->ftm2v);
+    if (outside >= 0) report_outside(outside);
+    flow_->solve(*stop_, !estimating_spectrum_);
+    flow_->interpolate(set(), rows(atom->v));
+  }
+  constrain_volume(stage);
+}
+
+void ImmersedMarkers::interpolate()
+{
+  flow_->interpolate(set(), rows(atom->v));
+  constrain_volume(Stage::start);
+}
+
+/* ----------------------------------------------------------------------
+   with inertia the one evaluation of a step is in its middle
+------------------------------------------------------------------------- */
+
+void ImmersedMarkers::constrain_volume(Stage stage)
+{
+  const bool inertia = flow_->has_inertia();
+  for (CellMembranes *cells : volume_keepers_)
+    cells->constrain_volume(update->dt, inertia || stage == Stage::start, inertia);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ImmersedMarkers::apply_mobility(double factor, Numbers &response)
+{
+  const std::size_t all = 3 * static_cast<std::size_t>(atom->nlocal);
+  applied_.resize(all);
+  response.resize(all);
+  for (int i : members_)
+    for (int d = 0; d < 3; ++d) applied_[3 * std::size_t(i) + d] = factor * atom->f[i][d];
+  const int outside = flow_->apply_mobility(set(), applied_.data(), response.data());
+  if (outside >= 0) report_outside(outside);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ImmersedMarkers::recompute_forces()
+{
+  exchanging_.start();
+  comm->forward_comm();
+  exchanging_.stop();
+
+  const std::size_t count = atom->nlocal + (force->newton ? atom->nghost : 0);
+  if (count) memset(atom->f[0], 0, 3 * count * sizeof(double));
+
+  constexpr int eflag = 0, vflag = 0;
+  if (modify->n_pre_force) modify->pre_force(vflag);
+  if (force->pair && force->pair->compute_flag) force->pair->compute(eflag, vflag);
+  if (atom->molecular != Atom::ATOMIC) {
+    if (force->bond) force->bond->compute(eflag, vflag);
+    if (force->angle) force->angle->compute(eflag, vflag);
+    if (force->dihedral) force->dihedral->compute(eflag, vflag);
+    if (force->improper) force->improper->compute(eflag, vflag);
+  }
+  if (force->kspace && force->kspace->compute_flag) force->kspace->compute(eflag, vflag);
+  if (modify->n_pre_reverse) modify->pre_reverse(eflag, vflag);
+  if (force->newton) comm->reverse_comm();
+  if (modify->n_post_force_any) modify->post_force(vflag);
+}
+
+/* ----------------------------------------------------------------------
+   LAMMPS would delete what is beyond a plate when atoms migrate
+------------------------------------------------------------------------- */
+
+void ImmersedMarkers::check_positions()
+{
+  if (domain->zperiodic) return;
+  double **const x = atom->x;
+  for (int i : members_)
+    if (!(x[i][2] >= domain->boxlo[2] && x[i][2] < domain->boxhi[2]))
+      return report(i, "went through a plate");
+}
+
+/* ---------------------------------------------------------------------- */
+
+double ImmersedMarkers::fastest() const
+{
+  double fastest2 = 0;
+  for (int i : members_) {
+    const double *const v = atom->v[i];
+    fastest2 = std::max(fastest2, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &fastest2, 1, MPI_DOUBLE, MPI_MAX, world);
+  return std::sqrt(fastest2);
+}
+
+double ImmersedMarkers::longest_step() const
+{
+  return 0.5 * settings_.courant * flow_->smallest_spacing() / fastest();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ImmersedMarkers::check_velocities(Stage stage)
+{
+  report_too_fast(stage);
+  stop_->check();
+}
+
+void ImmersedMarkers::report_too_fast(Stage stage)
+{
+  const bool any_speed =
+      estimating_spectrum_ || (settings_.timestep_follows && stage == Stage::start);
+  const double fastest = settings_.courant * flow_->smallest_spacing() / update->dt;
+  double **const v = atom->v;
+  for (int i : members_) {
+    const double speed2 = v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2];
+    if (std::isfinite(speed2) && (any_speed || speed2 <= fastest * fastest)) continue;
+    if (std::isfinite(speed2))
+      return report(
+          i, fmt::format("would cross {:.3g} fluid cells in a step (CFL above {}; timestep "
+                         "too large or unstable)",
+                         settings_.courant * std::sqrt(speed2) / fastest, settings_.courant));
+    return report(i, "has a velocity that is not a number");
+  }
+}
+
+void ImmersedMarkers::report_outside(int i)
+{
+  report(i, "left the fluid its MPI task holds (reneighboring too rare, see neigh_modify)");
+}
+
+void ImmersedMarkers::report(int i, const std::string &what)
+{
+  double **const x = atom->x;
+  stop_->report(fmt::format(
+      "{}: vertex with atom ID {} {} at step {}: molecule ID {} at ({:.6g}, {:.6g}, {:.6g})",
+      style_, atom->tag[i], what, update->ntimestep, atom->molecule_flag ? atom->molecule[i] : 0,
+      x[i][0], x[i][1], x[i][2]));
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::size_t ImmersedMarkers::bytes() const
+{
+  return viscosity_.bytes() + applied_.capacity() * sizeof(double) +
+         members_.capacity() * sizeof(int);
+}

@@ -1,0 +1,143 @@
+#include "coupling/rbc_implicit_viscosity.h"
+
+#include "atom.h"
+#include "cells/rbc_cell_membranes.h"
+#include "coupling/rbc_driven_flow.h"
+#include "coupling/rbc_immersed_markers.h"
+#include "force.h"
+
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using rbc::Numbers;
+
+// linear solves of an evaluation
+
+static constexpr int MOST_ROUNDS = 20;
+
+/* ---------------------------------------------------------------------- */
+
+void ImplicitViscosity::choose(double tolerance, int max_iterations)
+{
+  tolerance_ = tolerance;
+  gmres_.max_iterations = max_iterations;
+}
+
+void ImplicitViscosity::start_run(DrivenFlow *flow, const std::vector<CellMembranes *> &membranes)
+{
+  flow_ = flow;
+  viscous_.clear();
+  for (CellMembranes *cells : membranes)
+    if (cells->is_viscous()) viscous_.push_back(cells);
+}
+
+/* ----------------------------------------------------------------------
+   walls are left out of the mobility of the markers, so that a linear solve is not the end
+------------------------------------------------------------------------- */
+
+bool ImplicitViscosity::needs_rounds() const
+{
+  bool rounds = flow_->walls() != nullptr;
+  for (const CellMembranes *cells : viscous_) rounds = rounds || cells->is_thinning();
+  return rounds;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ImplicitViscosity::solve(EvaluationStage stage)
+{
+  const bool rounds = needs_rounds();
+  double count = static_cast<double>(markers_.members().size());
+  markers_.sum(&count, 1);
+
+  markers_.load(atom->v, guess_);
+  markers_.velocities_of_flow(stage);
+  double error = 0;
+  bool frozen = false;
+  for (int round = 0;; ++round) {
+    markers_.load(atom->f, forces_);
+    const double before = error, allowed = tolerance_ * markers_.fastest() * std::sqrt(count);
+    error = find_residual();
+    if (round > 0 && !(error > allowed)) return;
+    if (round == MOST_ROUNDS) break;
+    frozen = round > 0 && !frozen && error > before / 2;
+
+    markers_.store(guess_, atom->v);
+    for (CellMembranes *cells : viscous_) cells->linearise(frozen);
+    const double linear_error = solve_linear(rounds ? allowed / 2 : allowed);
+    correct_forces();
+    markers_.velocities_of_flow(stage);
+    if (rounds) continue;
+    if (linear_error <= allowed) return;
+    break;
+  }
+  ++unconverged_;
+}
+
+/* ----------------------------------------------------------------------
+   what the velocities of the flow differ by from those guessed; returns its length
+------------------------------------------------------------------------- */
+
+double ImplicitViscosity::find_residual()
+{
+  markers_.load(atom->v, residual_);
+  for (std::size_t i = 0; i < guess_.size(); ++i) residual_[i] -= guess_[i];
+  return std::sqrt(dot(markers_, residual_, residual_));
+}
+
+double ImplicitViscosity::solve_linear(double tolerance)
+{
+  correction_.assign(guess_.size(), 0.0);
+  return gmres_.solve(
+      [this](const Numbers &p, Numbers &result) {
+        resistance(p, result);
+        for (std::size_t i = 0; i < p.size(); ++i) result[i] += p[i];
+      },
+      markers_, residual_, tolerance, correction_);
+}
+
+/* ----------------------------------------------------------------------
+   M Z p: minus the velocities that the membranes' viscous forces cause if the atoms move with p
+------------------------------------------------------------------------- */
+
+void ImplicitViscosity::resistance(const Numbers &p, Numbers &v)
+{
+  v.assign(p.size(), 0.0);
+  markers_.store(p, atom->v);
+  markers_.store(v, atom->f);
+  for (CellMembranes *cells : viscous_) cells->add_viscous_change();
+  markers_.apply_mobility(-force->ftm2v, response_);
+  const std::vector<int> &members = markers_.members();
+  for (std::size_t n = 0; n < members.size(); ++n)
+    for (int d = 0; d < 3; ++d) v[3 * n + d] = response_[3 * std::size_t(members[n]) + d];
+}
+
+/* ----------------------------------------------------------------------
+   adds the correction to the velocities guessed, and what follows from it to the forces
+------------------------------------------------------------------------- */
+
+void ImplicitViscosity::correct_forces()
+{
+  markers_.store(forces_, atom->f);
+  for (CellMembranes *cells : viscous_) {
+    if (cells->is_thinning()) {
+      markers_.store(guess_, atom->v);
+      cells->add_viscous_forces(true, -1);
+    }
+  }
+  for (std::size_t i = 0; i < guess_.size(); ++i) guess_[i] += correction_[i];
+  for (CellMembranes *cells : viscous_) {
+    markers_.store(cells->is_thinning() ? guess_ : correction_, atom->v);
+    cells->add_viscous_forces(true);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::size_t ImplicitViscosity::bytes() const
+{
+  std::size_t numbers = 0;
+  for (const Numbers *vector : {&guess_, &forces_, &residual_, &correction_, &response_})
+    numbers += vector->capacity();
+  return gmres_.bytes() + numbers * sizeof(double);
+}

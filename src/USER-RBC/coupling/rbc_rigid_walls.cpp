@@ -1,0 +1,231 @@
+#include "coupling/rbc_rigid_walls.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "force.h"
+#include "update.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+
+/* ---------------------------------------------------------------------- */
+
+void RigidWalls::connect(const std::vector<WallGroup *> &walls, bool free_mean)
+{
+  walls_ = walls;
+  for (WallGroup *wall : walls_) {
+    check_settings(*wall);
+    check_atoms(*wall);
+    wall->join(this);
+  }
+  fluid::RigidSurface::Settings settings = surface_.settings();
+  if (settings.free_mean != free_mean) known_ = false;
+  settings.tolerance = first()->settings().tolerance;
+  settings.max_solves = first()->settings().max_solves;
+  settings.free_mean = free_mean;
+  surface_.choose(settings);
+  migrated_ = true;
+}
+
+bool RigidWalls::has_atom(const WallGroup &wall, int i) const
+{
+  return atom->mask[i] & wall.groupbit();
+}
+
+void RigidWalls::check_settings(const WallGroup &wall) const
+{
+  const WallGroup::Settings &mine = wall.settings(), &firsts = first()->settings();
+  if (mine.kernel != firsts.kernel || mine.tolerance != firsts.tolerance ||
+      mine.max_solves != firsts.max_solves)
+    error->all(FLERR,
+               "{}: kernel, tol and maxiter must be those of {}, which bounds the same fluid",
+               wall.style(), first()->style());
+}
+
+void RigidWalls::check_atoms(const WallGroup &wall) const
+{
+  bigint atoms = 0;
+  for (int i = 0; i < atom->nlocal; ++i) atoms += has_atom(wall, i);
+  MPI_Allreduce(MPI_IN_PLACE, &atoms, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (atoms == 0) error->all(FLERR, "{}: its group has no atoms", wall.style());
+  for (const WallGroup *other : walls_) {
+    if (other == &wall) break;
+    int shared = 0;
+    for (int i = 0; i < atom->nlocal; ++i)
+      if (has_atom(wall, i) && has_atom(*other, i)) shared = 1;
+    MPI_Allreduce(MPI_IN_PLACE, &shared, 1, MPI_INT, MPI_MAX, world);
+    if (shared) error->all(FLERR, "{} and {} have atoms in common", wall.style(), other->style());
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool RigidWalls::moves() const
+{
+  return std::any_of(walls_.begin(), walls_.end(),
+                     [](const WallGroup *wall) { return wall->moves(); });
+}
+
+void RigidWalls::begin_step(bool again)
+{
+  for (WallGroup *wall : walls_) wall->begin_step(again);
+}
+
+void RigidWalls::place(double fraction)
+{
+  for (WallGroup *wall : walls_) wall->place(fraction);
+}
+
+/* ----------------------------------------------------------------------
+   what is known of the markers stays valid as long as all ranks hold the same atoms
+------------------------------------------------------------------------- */
+
+void RigidWalls::find_markers(const fluid::Flow &flow)
+{
+  const Change change = find_change();
+  if (change == Change::places) surface_.move(position_.data());
+  if (change == Change::atoms) set_markers(flow);
+}
+
+RigidWalls::Change RigidWalls::find_change()
+{
+  Change change = known_ ? (moved_ ? Change::places : Change::none) : Change::atoms;
+  const bool check_places = migrated_;
+  if (migrated_) {
+    collect_markers();
+    if (!take_tags()) change = Change::atoms;
+  }
+  if (change == Change::atoms || check_places || moved_) {
+    position_.resize(3 * markers_.size());
+    for (std::size_t n = 0; n < markers_.size(); ++n)
+      for (int d = 0; d < 3; ++d) {
+        const double x = atom->x[markers_[n].atom][d];
+        if (position_[3 * n + d] != x) change = std::max(change, Change::places);
+        position_[3 * n + d] = x;
+      }
+  }
+  if (check_places && comm->nprocs > 1) {
+    int code = static_cast<int>(change);
+    MPI_Allreduce(MPI_IN_PLACE, &code, 1, MPI_INT, MPI_MAX, world);
+    change = static_cast<Change>(code);
+  }
+  migrated_ = moved_ = false;
+  return change;
+}
+
+void RigidWalls::collect_markers()
+{
+  markers_.clear();
+  for (std::size_t w = 0; w < walls_.size(); ++w)
+    for (int i = 0; i < atom->nlocal; ++i)
+      if (has_atom(*walls_[w], i)) markers_.push_back({atom->tag[i], i, static_cast<int>(w)});
+  std::sort(markers_.begin(), markers_.end(),
+            [](const Marker &a, const Marker &b) { return a.tag < b.tag; });
+}
+
+/* ----------------------------------------------------------------------
+   false if they are not those of before
+------------------------------------------------------------------------- */
+
+bool RigidWalls::take_tags()
+{
+  const std::size_t count = markers_.size();
+  bool same = tags_.size() == count;
+  for (std::size_t n = 0; same && n < count; ++n)
+    same = tags_[n] == markers_[n].tag && body_[n] == markers_[n].wall;
+  tags_.resize(count);
+  body_.resize(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    tags_[n] = markers_[n].tag;
+    body_[n] = markers_[n].wall;
+  }
+  return same;
+}
+
+void RigidWalls::set_markers(const fluid::Flow &flow)
+{
+  const auto times = surface_.times();
+  surface_.set_markers(flow, first()->settings().kernel, static_cast<int>(markers_.size()),
+                       position_.data(), body_.data());
+  if (known_) surface_.set_times(times);
+  known_ = true;
+  for (std::size_t n = 0; n < markers_.size(); ++n) {
+    const double *const forces = walls_[markers_[n].wall]->forces(markers_[n].atom);
+    for (int d = 0; d < 3; ++d) {
+      surface_.force()[3 * n + d] = -forces[d] * force->ftm2v;
+      surface_.earlier_force()[3 * n + d] = -forces[3 + d] * force->ftm2v;
+    }
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RigidWalls::spread(fluid::Flow &flow, double time, const std::array<double, 3> &others,
+                        CollectiveStop &stop)
+{
+  stopwatch_.start();
+  find_markers(flow);
+  for (std::size_t n = 0; n < markers_.size(); ++n)
+    std::copy_n(walls_[markers_[n].wall]->velocity().data(), 3, surface_.target() + 3 * n);
+  const int outside = surface_.spread(flow, time, others);
+  stopwatch_.stop();
+  if (outside < 0) return;
+  const Marker &lost = markers_[outside];
+  const double *const x = atom->x[lost.atom];
+  stop.report(fmt::format(
+      "{}: wall atom with ID {} left the fluid its MPI task holds (reneighboring too rare, see "
+      "neigh_modify) or lies beyond a plate at step {}: ({:.6g}, {:.6g}, {:.6g})",
+      walls_[lost.wall]->style(), lost.tag, update->ntimestep, x[0], x[1], x[2]));
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RigidWalls::enforce(fluid::Flow &flow)
+{
+  stopwatch_.start();
+  outcome_ = surface_.enforce(flow);
+  ++evaluations_;
+  solves_ += outcome_.solves;
+  if (!outcome_.converged) ++unconverged_;
+  for (std::size_t n = 0; n < markers_.size(); ++n) {
+    const WallGroup &wall = *walls_[markers_[n].wall];
+    double *const forces = wall.forces(markers_[n].atom);
+    for (int d = 0; d < 3; ++d) {
+      forces[d] = -surface_.force()[3 * n + d] / force->ftm2v;
+      forces[3 + d] = -surface_.earlier_force()[3 * n + d] / force->ftm2v;
+    }
+    std::copy_n(wall.velocity().data(), 3, atom->v[markers_[n].atom]);
+  }
+  stopwatch_.stop();
+}
+
+/* ---------------------------------------------------------------------- */
+
+double RigidWalls::mean_solves() const
+{
+  const bigint evaluations = evaluations_ - first_evaluation_;
+  return evaluations > 0 ? static_cast<double>(solves_) / static_cast<double>(evaluations) : 0;
+}
+
+void RigidWalls::reset_counts()
+{
+  first_evaluation_ = evaluations_;
+  solves_ = unconverged_ = 0;
+  stopwatch_.reset();
+}
+
+void RigidWalls::warn() const
+{
+  if (unconverged_ > 0)
+    error->warning(FLERR, "{} reached its maxiter of {} in {} evaluations", first()->style(),
+                   first()->settings().max_solves, unconverged_);
+}
+
+std::size_t RigidWalls::bytes() const
+{
+  return surface_.bytes() + markers_.capacity() * sizeof(Marker) +
+         tags_.capacity() * sizeof(tagint) + body_.capacity() * sizeof(int) +
+         position_.capacity() * sizeof(double);
+}

@@ -1,0 +1,255 @@
+#include "coupling/rbc_time_steps.h"
+
+#include "atom.h"
+#include "error.h"
+#include "fix.h"
+#include "force.h"
+#include "modify.h"
+#include "output.h"
+#include "pair.h"
+#include "update.h"
+
+#include <algorithm>
+#include <utility>
+
+using namespace LAMMPS_NS;
+using rbc::Numbers;
+
+// smallest timestep over the largest
+
+static constexpr double SMALLEST_PART = 1.0e-6;
+
+/* ---------------------------------------------------------------------- */
+
+TimeSteps::TimeSteps(LAMMPS *lmp, std::string style, ImmersedMarkers &markers,
+                     std::unique_ptr<rbc::Integrator> integrator, double tolerance,
+                     double largest_dt) :
+    Pointers(lmp),
+    style_(std::move(style)), markers_(markers), integrator_(std::move(integrator)), store_(markers)
+{
+  control_.tolerance = tolerance;
+  control_.largest = largest_dt;
+  control_.smallest = SMALLEST_PART * largest_dt;
+  control_.order = integrator_->order();
+  control_.growth = integrator_->largest_growth();
+}
+
+double TimeSteps::update_dt() const
+{
+  return update->dt;
+}
+
+bigint TimeSteps::step() const
+{
+  return update->ntimestep;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void TimeSteps::start_run(DrivenFlow *flow, bool forces_change)
+{
+  flow_ = flow;
+  forces_change_ = forces_change;
+  first_step_ = step();
+  integrator_->start_run(flow->smallest_spacing());
+  rejected_ = failed_ = 0;
+  if (!control_.active()) return;
+  const bool changed = update->dt != last_dt_ && !restarted_;    // by the user
+  if (next_dt_ == 0 || changed) next_dt_ = update->dt;
+  next_dt_ = std::min(next_dt_, control_.largest);
+  restarted_ = false;
+}
+
+void TimeSteps::atoms_migrated()
+{
+  integrator_->points_migrated(markers_, markers_.members().size(), store_);
+}
+
+/* ----------------------------------------------------------------------
+   with inertia velocities are those of the middle of the last step
+------------------------------------------------------------------------- */
+
+void TimeSteps::setup()
+{
+  using Stage = ImmersedMarkers::Stage;
+  if (flow_->has_inertia()) {
+    markers_.check_velocities(Stage::start);
+    return;
+  }
+  markers_.velocities_from_forces(Stage::start);
+  for (bool again = flow_->controls_flow_rate(); again;) {
+    again = flow_->correct_flow_rate();
+    markers_.recompute_forces();
+    markers_.velocities_from_forces(Stage::start);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void TimeSteps::advance()
+{
+  choose_timestep();
+  markers_.load(atom->x, X_);
+  markers_.load(atom->v, V_);
+  bool again = false;
+  do {
+    flow_->begin_step(again);
+    again = true;
+  } while (!step_is_accepted());
+  markers_.store(X_new_, atom->x);
+  flow_->place_walls(1);
+  markers_.check_positions();
+  markers_.stop()->check();
+  integrator_->accept(store_, start(), X_new_);
+  last_dt_ = update->dt;
+}
+
+void TimeSteps::finish()
+{
+  if (!flow_->has_inertia()) {
+    flow_->set_time_now();
+    if (std::exchange(velocities_known_, false))
+      markers_.constrain_volume(ImmersedMarkers::Stage::start);
+    else
+      markers_.velocities_from_forces(ImmersedMarkers::Stage::start);
+  }
+  markers_.stop()->check();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void TimeSteps::choose_timestep()
+{
+  if (control_.active()) set_timestep(next_dt_, step() - 1);
+  if (flow_->has_inertia()) return;
+  if (forces_change_ && step() == first_step_ + 1)
+    markers_.velocities_from_forces(ImmersedMarkers::Stage::start);
+  if (control_.active()) set_timestep(std::min(next_dt_, markers_.longest_step()), step() - 1);
+}
+
+void TimeSteps::take_step()
+{
+  integrator_->step(markers_, store_, start(), X_new_);
+}
+
+/* ----------------------------------------------------------------------
+   whether a step has a result with an error within its bound; chooses the timestep of the next one,
+   or of this one again
+------------------------------------------------------------------------- */
+
+bool TimeSteps::step_is_accepted()
+{
+  if (!control_.active()) {
+    try {
+      take_step();
+    } catch (const rbc::StepFailure &failure) {
+      error->all(FLERR, "{}: {} at step {}", style_, failure.what(), update->ntimestep);
+    }
+    return true;
+  }
+
+  const std::string flaw = try_step();
+  if (flaw.empty() && local_error_ <= control_.tolerance) return true;
+  integrator_->reject(markers_, store_, start(), X_new_);
+
+  ++rejected_;
+  if (!flaw.empty()) {
+    ++failed_;
+    last_failure_ = flaw;
+  }
+  if (next_dt_ < control_.smallest) stop_adapting(flaw);
+  set_timestep(next_dt_, step() - 1);
+  return false;
+}
+
+/* ----------------------------------------------------------------------
+   returns what went wrong
+------------------------------------------------------------------------- */
+
+std::string TimeSteps::try_step()
+{
+  std::string flaw;
+  X_new_ = X_;
+  markers_.stop()->trying = true;
+  try {
+    take_step();
+    measure_error();
+    next_dt_ = control_.next(update->dt, local_error_);
+  } catch (const rbc::StepFailure &failure) {
+    flaw = fmt::format("{}: {} at step {}", style_, failure.what(), update->ntimestep);
+  } catch (const CollectiveStop::FailedTrial &failure) {
+    flaw = failure.what();
+  }
+  if (!flaw.empty()) next_dt_ = control_.after_failure(update->dt);
+  markers_.stop()->trying = false;
+  return flaw;
+}
+
+void TimeSteps::measure_error()
+{
+  V_new_ = V_;
+  markers_.velocity(X_new_, 1.0, V_new_);
+  velocities_known_ = true;
+  local_error_ = rbc::StepControl::error(markers_, update->dt, X_, X_new_, V_, V_new_, scratch_);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void TimeSteps::stop_adapting(const std::string &flaw)
+{
+  if (!flaw.empty())
+    error->all(FLERR, "{} (so with all timesteps of adapt, down to {:.3g})", flaw, update->dt);
+  error->all(FLERR,
+             "{}: no timestep above {:.3g} meets the error {:.3g} of adapt at step {}; the local "
+             "error is {:.3g}",
+             style_, control_.smallest, control_.tolerance, update->ntimestep, local_error_);
+}
+
+/* ----------------------------------------------------------------------
+   as fix dt/reset does
+------------------------------------------------------------------------- */
+
+void TimeSteps::set_timestep(double dt, bigint from_step)
+{
+  if (dt == update->dt) return;
+  update->atime += (from_step - update->atimestep) * update->dt;
+  update->atimestep = from_step;
+  update->dt = dt;
+  update->dt_default = 0;
+  if (force->pair) force->pair->reset_dt();
+  for (Fix *fix : modify->get_fix_list()) fix->reset_dt();
+
+  // output by time is planned anew as at the end of the step before
+  const bigint step = update->ntimestep;
+  update->ntimestep = from_step;
+  output->reset_dt();
+  update->ntimestep = step;
+}
+
+/* ---------------------------------------------------------------------- */
+
+TimeSteps::State TimeSteps::state() const
+{
+  State state{last_dt_, next_dt_};
+  const rbc::Integrator::State kept = integrator_->state();
+  std::copy(kept.begin(), kept.end(), state.begin() + 2);
+  return state;
+}
+
+void TimeSteps::restart(const double *state)
+{
+  last_dt_ = state[0];
+  next_dt_ = state[1];
+  rbc::Integrator::State kept;
+  std::copy_n(state + 2, kept.size(), kept.begin());
+  integrator_->restore(kept);
+  restarted_ = true;
+}
+
+std::size_t TimeSteps::bytes() const
+{
+  std::size_t numbers = 0;
+  for (const Numbers *vector : {&X_, &V_, &X_new_, &V_new_, &scratch_})
+    numbers += vector->capacity();
+  return integrator_->bytes() + numbers * sizeof(double);
+}

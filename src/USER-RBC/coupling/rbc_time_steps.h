@@ -1,0 +1,90 @@
+#ifndef LMP_RBC_TIME_STEPS_H
+#define LMP_RBC_TIME_STEPS_H
+
+#include "coupling/rbc_atom_store.h"
+#include "coupling/rbc_driven_flow.h"
+#include "motion/integrator.h"
+#include "motion/step_control.h"
+
+#include <array>
+#include <memory>
+#include <string>
+
+namespace LAMMPS_NS {
+
+/// Time steps of markers and flow: an integrator, the choice of the timestep, and LAMMPS's clock. All calls are
+/// collective.
+class TimeSteps : protected Pointers {
+ public:
+  /// `style` names the fix in errors. A control without a tolerance leaves LAMMPS's timestep alone.
+  TimeSteps(LAMMPS *lmp, std::string style, ImmersedMarkers &markers,
+            std::unique_ptr<rbc::Integrator> integrator, double tolerance, double largest_dt);
+
+  const rbc::Integrator &integrator() const { return *integrator_; }
+  bool adaptive() const { return control_.active(); }
+
+  /// Columns that must be kept for each atom, in `store`; 0 at first.
+  int columns() const { return AtomStore::columns(*integrator_); }
+  void keep_in(FixStoreAtom *store) { store_.keep_in(store, *integrator_); }
+
+  /// At the start of a run; `forces_change` if the forces of the first step are not those of the setup.
+  void start_run(DrivenFlow *flow, bool forces_change);
+  void atoms_migrated();
+
+  /// Velocities at the start of a run.
+  void setup();
+
+  /// The atoms hold positions and velocities of the start of the step, then positions of its end.
+  void advance();
+
+  /// Velocities at the end of the step, from the forces that LAMMPS has computed there.
+  void finish();
+
+  double local_error() const { return local_error_; }
+  bigint rejected() const { return rejected_; }
+  bigint failed() const { return failed_; }    ///< of these: went wrong altogether
+  const std::string &last_failure() const { return last_failure_; }
+  double last_dt() const { return last_dt_; }
+
+  /// Last timestep, next timestep, what the integrator keeps.
+  static constexpr int NSTATE = 2 + rbc::Integrator::STATE;
+  using State = std::array<double, NSTATE>;
+  State state() const;
+  void restart(const double *state);
+
+  std::size_t bytes() const;
+
+ private:
+  std::string style_;
+  ImmersedMarkers &markers_;
+  DrivenFlow *flow_ = nullptr;
+  std::unique_ptr<rbc::Integrator> integrator_;
+  AtomStore store_;
+  rbc::StepControl control_;
+  bigint first_step_ = 0;
+  bool forces_change_ = false;
+
+  // a step: positions and velocities at its start, positions and velocities at its end
+  rbc::Numbers X_, V_, X_new_, V_new_, scratch_;
+  double last_dt_ = 0, next_dt_ = 0, local_error_ = 0;
+  bool restarted_ = false;
+  bool velocities_known_ =
+      false;    ///< those at the end of the step, before LAMMPS computes forces
+  bigint rejected_ = 0, failed_ = 0;
+  std::string last_failure_;
+
+  rbc::StepStart start() const { return {X_, V_, update_dt(), last_dt_, step()}; }
+  double update_dt() const;
+  bigint step() const;
+  void choose_timestep();
+  void take_step();
+  bool step_is_accepted();
+  std::string try_step();
+  void measure_error();
+  void stop_adapting(const std::string &flaw);
+  void set_timestep(double dt, bigint from_step);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,76 @@
+#ifndef LMP_RBC_WALL_GROUP_H
+#define LMP_RBC_WALL_GROUP_H
+
+#include "fluid/spreading.h"
+#include "pointers.h"
+#include "support/rbc_number_or_variable.h"
+
+#include <array>
+#include <string>
+
+namespace LAMMPS_NS {
+
+class RigidWalls;
+
+/// The atoms of a fix rbc/wall, which move as one with a prescribed velocity, and the forces on them.
+class WallGroup : protected Pointers {
+ public:
+  struct Settings {
+    std::array<NumberOrVariable, 3> velocity;
+    fluid::KernelKind kernel = fluid::KernelKind::peskin4;
+    double tolerance = 1.0e-3;    ///< largest slip, see fluid::RigidSurface
+    int max_solves = 100;         ///< of an evaluation
+  };
+
+  WallGroup(LAMMPS *lmp, std::string style, int groupbit, const Settings &settings);
+  ~WallGroup() override;
+
+  const std::string &style() const { return style_; }
+  const Settings &settings() const { return settings_; }
+  int groupbit() const { return groupbit_; }
+
+  /// All walls of the fluid that this one belongs to, null before a run has begun.
+  const RigidWalls *walls() const { return walls_; }
+  void join(RigidWalls *walls) { walls_ = walls; }
+
+  /// At the start of a run, collective where the velocity is a variable.
+  void check_variables() const;
+  void start_run();
+
+  void atoms_migrated();
+
+  bool moves() const;
+  const std::array<double, 3> &velocity() const { return velocity_; }
+
+  /// Evaluates the velocity at the end of the step that begins; `again` if the step is made once more, with another
+  /// timestep. Collective where the velocity is a variable.
+  void begin_step(bool again);
+
+  /// Moves the atoms to where they are at a fraction of the step. The velocity is linear in time within it.
+  void place(double fraction);
+
+  /// Forces of the fluid on an atom in the last evaluation, then those in the evaluation before it.
+  static constexpr int NUMBERS = 6;
+  double *forces(int i) const { return forces_[i]; }
+  double **all_forces() const { return forces_; }
+  void grow(int nmax);
+
+  /// Force and torque of the fluid on the wall, about the mean place of its atoms. Collective.
+  std::array<double, 6> total() const;
+
+ private:
+  std::string style_;
+  int groupbit_;
+  Settings settings_;
+  RigidWalls *walls_ = nullptr;
+  double **forces_ = nullptr;
+
+  std::array<double, 3> velocity_start_{}, velocity_end_{}, velocity_{}, displaced_{};
+  bool velocity_known_ = false;
+
+  void evaluate();
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

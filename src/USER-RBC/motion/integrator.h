@@ -1,0 +1,83 @@
+#pragma once
+
+#include "motion/motion.h"
+
+#include <array>
+
+namespace rbc {
+
+/// What is known at the start of a step: positions, velocities, timesteps of this step and of the last one (0 without
+/// one), number of the step.
+struct StepStart {
+  const Numbers &x, &v;
+  double dt, last_dt;
+  std::int64_t step;
+};
+
+/// Vectors of three numbers, kept for each point from step to step and while points migrate between ranks. An entry
+/// that was never stored is zero.
+class PointStore {
+ public:
+  virtual void load(int vector, Numbers &values) const = 0;
+  virtual void store(int vector, const Numbers &values) = 0;
+
+  /// Steps since a point came into being, as far as set_known_steps counts them.
+  virtual int known_steps(std::size_t point) const = 0;
+  virtual void set_known_steps(int steps) = 0;
+
+ protected:
+  ~PointStore() = default;
+};
+
+/// A method that advances points by a step. All calls are collective. A step that has no result throws StepFailure. A
+/// new method is a header that derives from this class, and a line in motion/integrators.h.
+class Integrator {
+ public:
+  /// What goes into restart files, besides the vectors of the points.
+  static constexpr int STATE = 3;
+  using State = std::array<double, STATE>;
+
+  virtual ~Integrator() = default;
+
+  /// Order of accuracy, for the choice of the timestep.
+  virtual int order() const = 0;
+
+  /// Largest ratio of a timestep to the one before.
+  virtual double largest_growth() const { return 2; }
+
+  /// Whether it may advance points in a fluid with inertia, whose velocities at the start of a step are those of the
+  /// middle of the last step.
+  virtual bool allows_inertia() const { return false; }
+
+  /// Vectors that it keeps for each point, and whether it asks for known_steps().
+  virtual int kept_vectors() const { return 0; }
+  virtual bool counts_steps() const { return false; }
+
+  /// At the start of a run. `length` is one over which velocities vary, for finite differences.
+  virtual void start_run(double /*length*/) {}
+
+  virtual void points_migrated(const Motion & /*motion*/, std::size_t /*points*/,
+                               const PointStore & /*store*/)
+  {
+  }
+
+  /// x = the positions at the end of the step.
+  virtual void step(Motion &motion, PointStore &store, const StepStart &start, Numbers &x) = 0;
+
+  /// The step that led to `x` counts, or is made again with another timestep.
+  virtual void accept(PointStore & /*store*/, const StepStart & /*start*/, const Numbers & /*x*/) {}
+  virtual void reject(const Motion & /*motion*/, PointStore & /*store*/,
+                      const StepStart & /*start*/, const Numbers & /*x*/)
+  {
+  }
+
+  virtual int stages() const { return 0; }
+  virtual double spectral_radius() const { return 0; }
+
+  virtual State state() const { return {}; }
+  virtual void restore(const State & /*state*/) {}
+
+  virtual std::size_t bytes() const { return 0; }
+};
+
+}    // namespace rbc

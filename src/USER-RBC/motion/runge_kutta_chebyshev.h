@@ -1,0 +1,50 @@
+#pragma once
+
+#include "motion/chebyshev.h"
+#include "motion/integrator.h"
+#include "motion/stability_estimate.h"
+
+namespace rbc {
+
+/// Runge-Kutta-Chebyshev method of second order, or of third with the displacements of the last steps. The number of
+/// stages is given or, where it is 0, the fewest that are stable for the spectral radius.
+class RungeKuttaChebyshev : public Integrator {
+ public:
+  RungeKuttaChebyshev(int stages, int order);
+
+  int order() const override { return 2; }
+  double largest_growth() const override;
+  int kept_vectors() const override { return past_steps() + (automatic_ ? 1 : 0); }
+  bool counts_steps() const override { return past_steps() > 0; }
+  void start_run(double length) override { stability_.start_run(length); }
+  void points_migrated(const Motion &motion, std::size_t points, const PointStore &store) override;
+  void step(Motion &motion, PointStore &store, const StepStart &start, Numbers &x) override;
+  void accept(PointStore &store, const StepStart &start, const Numbers &x) override;
+  void reject(const Motion &motion, PointStore &store, const StepStart &start,
+              const Numbers &x) override;
+  int stages() const override { return chebyshev_.stages(); }
+  double spectral_radius() const override { return stability_.last(); }
+  State state() const override { return past_dt_; }
+  void restore(const State &state) override { past_dt_ = state; }
+  std::size_t bytes() const override;
+
+ private:
+  ChebyshevMethod chebyshev_;
+  bool automatic_;
+  StabilityEstimate stability_;
+
+  // third order
+  DisplacementHistory past_;
+  State past_dt_{};
+  int known_steps_ = 0;    ///< of all points
+
+  Numbers scratch_, velocity_;
+
+  int past_steps() const { return chebyshev_.past_steps(); }
+  int mode_vector() const { return past_steps(); }
+  void load_past(const PointStore &store, double dt);
+  void start_without_past(Motion &motion, const StepStart &start, double radius, Numbers &x);
+  void choose_stages(double dt, double radius);
+};
+
+}    // namespace rbc

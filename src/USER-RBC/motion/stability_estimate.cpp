@@ -1,0 +1,109 @@
+#include "motion/stability_estimate.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace rbc {
+
+namespace {
+
+// The interval between estimates is halved where the radius changes by more than FAST_CHANGE from one to the next, and
+// doubled where it changes by less than STEADY_CHANGE.
+
+constexpr int SHORTEST_INTERVAL = 5, LONGEST_INTERVAL = 50;
+constexpr double STEADY_CHANGE = 0.01, FAST_CHANGE = 0.03;
+
+constexpr double SAFETY = 1.06, LARGEST_GROWTH = 1.5;
+constexpr double DISPLACEMENT = 1.0e-5;    // over the length that the caller gives
+constexpr int GUESS_ITERATIONS = 20;       // without a mode of an earlier estimate
+constexpr int SUSPECT_ITERATIONS = 10;     // after a step that was refused
+
+/// Switches the motion's estimate of the spectrum on, and off when it goes out of scope.
+class Estimating {
+ public:
+  explicit Estimating(Motion &motion) : motion_(motion) { motion_.estimate_spectrum(true); }
+  ~Estimating() { motion_.estimate_spectrum(false); }
+  Estimating(const Estimating &) = delete;
+  Estimating &operator=(const Estimating &) = delete;
+
+ private:
+  Motion &motion_;
+};
+
+/// A mode without any symmetry, the same on any number of ranks.
+void guess(const Motion &motion, Numbers &mode)
+{
+  for (std::size_t i = 0; i < mode.size(); ++i)
+    mode[i] = std::sin(1.0 + 12.9898 * static_cast<double>(i % 3) +
+                       78.233 * static_cast<double>(motion.label(i / 3)));
+}
+
+}    // namespace
+
+void StabilityEstimate::start_run(double length)
+{
+  displacement_ = DISPLACEMENT * length;
+  radius_step_ = estimated_step_ = -1;
+  interval_ = SHORTEST_INTERVAL;
+  raw_radius_ = 0;
+  suspected_ = false;
+}
+
+double StabilityEstimate::radius(Motion &motion, PointStore &store, int mode_vector,
+                                 const StepStart &start)
+{
+  if (radius_step_ < 0 || start.step >= radius_step_ + interval_)
+    estimate(motion, store, mode_vector, start);
+  return radius_;
+}
+
+void StabilityEstimate::estimate(Motion &motion, PointStore &store, int mode_vector,
+                                 const StepStart &start)
+{
+  store.load(mode_vector, mode_);
+  const bool known = dot(motion, mode_, mode_) > 0;
+  spectrum_.min_iterations = !known ? GUESS_ITERATIONS : suspected_ ? SUSPECT_ITERATIONS : 1;
+  suspected_ = false;
+  if (!known) guess(motion, mode_);
+  radius_ = 0;
+  radius_step_ = start.step;
+  if (root_mean_square(motion, mode_) == 0) return;    // there are no points
+
+  // the velocities known are those of other times, and of viscous forces, which are not solved for
+  // as exactly as differences ask and only slow what relaxes
+  {
+    const Estimating estimating(motion);
+    velocity_ = start.v;
+    motion.velocity(start.x, 0, velocity_);
+    const double last = std::exchange(
+        raw_radius_, spectrum_.estimate(motion, start.x, velocity_, displacement_, mode_));
+    foresee(last, start.step);
+  }
+  if (!std::isfinite(radius_)) throw StepFailure("the spectral radius is not a number");
+  store.store(mode_vector, mode_);
+}
+
+void StabilityEstimate::foresee(double last, std::int64_t step)
+{
+  radius_ = SAFETY * raw_radius_;
+  const bool repeated = std::exchange(estimated_step_, step) == step;
+  if (repeated || !(last > 0)) return;    // nothing to compare with
+  const double ratio = raw_radius_ / last, change = std::abs(ratio - 1);
+  if (change > FAST_CHANGE)
+    interval_ = std::max(interval_ / 2, SHORTEST_INTERVAL);
+  else if (change < STEADY_CHANGE)
+    interval_ = std::min(2 * interval_, LONGEST_INTERVAL);
+  radius_ *= std::clamp(ratio, 1.0, LARGEST_GROWTH);
+}
+
+void StabilityEstimate::suspect(const Motion &motion, PointStore &store, int mode_vector,
+                                const StepStart &start, const Numbers &end)
+{
+  store.load(mode_vector, mode_);
+  spectrum_.suspect(motion, start.x, end, start.v, mode_);
+  store.store(mode_vector, mode_);
+  suspected_ = true;
+  radius_step_ = -1;
+}
+
+}    // namespace rbc

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "motion/integrator.h"
+#include "motion/spectral_radius.h"
+
+namespace rbc {
+
+/// The spectral radius for which steps must be stable, with a margin. It is estimated anew every few steps, the more
+/// often the faster it changes, and what grows is taken to grow on until the next estimate. The fastest mode found is
+/// kept in a vector of the points, from which the next estimate starts.
+class StabilityEstimate {
+ public:
+  /// At the start of a run; points are displaced by a small part of `length`.
+  void start_run(double length);
+
+  /// The radius for a step; estimates it where it is due. Throws StepFailure if it is not a number.
+  double radius(Motion &motion, PointStore &store, int mode_vector, const StepStart &start);
+
+  /// A step that led to `end` was refused: modes may have become faster. What it grew along joins the mode.
+  void suspect(const Motion &motion, PointStore &store, int mode_vector, const StepStart &start,
+               const Numbers &end);
+
+  double last() const { return radius_; }
+
+  std::size_t bytes() const { return (mode_.capacity() + velocity_.capacity()) * sizeof(double); }
+
+ private:
+  SpectralRadius spectrum_;
+  Numbers mode_, velocity_;
+  double displacement_ = 0;
+  double radius_ = 0, raw_radius_ = 0;    ///< with a margin; the last estimate as it was
+  bool suspected_ = false;                ///< the rejected step's growth was added to the mode
+  std::int64_t radius_step_ = -1;         ///< of the estimate in use; -1 where a new one is due
+  std::int64_t estimated_step_ = -1;      ///< of the last estimate
+  int interval_ = 0;                      ///< steps between estimates
+
+  void estimate(Motion &motion, PointStore &store, int mode_vector, const StepStart &start);
+  void foresee(double last, std::int64_t step);
+};
+
+}    // namespace rbc
