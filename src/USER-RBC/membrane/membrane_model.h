@@ -4,17 +4,12 @@
 #include "geometry/vector_array.h"
 #include "membrane/cell_elements.h"
 #include "membrane/crease_resistance.h"
-#include "membrane/mooney_rivlin.h"
-#include "membrane/neo_hookean.h"
-#include "membrane/skalak.h"
+#include "membrane/sheet_laws.h"
 #include "membrane/stretch_limit.h"
 
 #include <string>
-#include <variant>
 
 namespace rbc {
-
-using SheetLaw = std::variant<MooneyRivlin, NeoHookean, Skalak>;
 
 enum class BendingForm { none, helfrich, dihedral };
 
