@@ -19,7 +19,7 @@ class NearSurfaces : protected Pointers {
  public:
   /// A vertex and the closest point of a surface that it sees. Points and corners are local indices of atoms; corners
   /// may be ghosts.
-  using Contact = rbc::NearTriangles::Contact;
+  using Contact = rbc::VertexContact;
 
   NearSurfaces(LAMMPS *lmp, std::string style);
 

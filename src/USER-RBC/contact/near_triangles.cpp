@@ -258,7 +258,7 @@ double NearTriangles::largest_approach(const double *x)
    no triangle can be nearer than it was less what it and the point came nearer to each other
 ------------------------------------------------------------------------- */
 
-const std::vector<NearTriangles::Contact> &NearTriangles::contacts(const double *x, double range)
+const std::vector<VertexContact> &NearTriangles::contacts(const double *x, double range)
 {
   if (largest_approach(x) > slack_) rebuild(x);
   contacts_.clear();
@@ -341,7 +341,7 @@ std::size_t NearTriangles::bytes() const
          bounds_.capacity() *
              (sizeof(Sphere) + 4 * sizeof(double) + sizeof(Surface) + sizeof(int)) +
          groups_.capacity() * sizeof(Group) + candidates_.capacity() * sizeof(Candidate) +
-         contacts_.capacity() * sizeof(Contact);
+         contacts_.capacity() * sizeof(VertexContact);
 }
 
 }    // namespace rbc

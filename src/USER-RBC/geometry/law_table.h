@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string>
@@ -38,8 +39,7 @@ void visit_all(Type<std::variant<Laws...>>, const Function &f)
   (f(Type<Laws>(), index++), ...);
 }
 
-template <typename Law, std::size_t... n>
-Law make(const double *values, std::index_sequence<n...>)
+template <typename Law, std::size_t... n> Law make(const double *values, std::index_sequence<n...>)
 {
   return Law(values[n]...);
 }
@@ -75,6 +75,17 @@ template <typename Table> std::vector<LawParameter> law_parameters(std::size_t l
     if (index == law) found.assign(parameters.begin(), parameters.end());
   });
   return found;
+}
+
+/// Names of the parameters that any law of the table has, each once, in order of appearance.
+template <typename Table> std::vector<std::string> parameter_names()
+{
+  std::vector<std::string> names;
+  for (std::size_t law = 0; law < std::variant_size_v<Table>; ++law)
+    for (const LawParameter &parameter : law_parameters<Table>(law))
+      if (std::find(names.begin(), names.end(), parameter.name) == names.end())
+        names.emplace_back(parameter.name);
+  return names;
 }
 
 /// The law at that place of the table, made from its parameters. Throws std::bad_variant_access if
