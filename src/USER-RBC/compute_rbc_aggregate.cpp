@@ -7,6 +7,7 @@
 #include "fix_rbc_membrane.h"
 #include "memory.h"
 #include "neighbor.h"
+#include "support/rbc_gather.h"
 #include "update.h"
 
 #include <Eigen/Geometry>
@@ -135,7 +136,7 @@ void ComputeRBCAggregate::find_aggregates()
   if (found_step == update->ntimestep) return;
   found_step = update->ntimestep;
   sets = rbc::DisjointSets(cells.size());
-  rbc::unite_touching(sets, gather(touched_here()), least_share);
+  rbc::unite_touching(sets, gather_all(touched_here(), world), least_share);
   sizes = rbc::AggregateSizes(sets);
 }
 
@@ -202,23 +203,6 @@ ComputeRBCAggregate::Surface ComputeRBCAggregate::surface_here() const
     }
   }
   return surface;
-}
-
-/* ----------------------------------------------------------------------
-   those of all ranks
-------------------------------------------------------------------------- */
-
-std::vector<TouchedShare> ComputeRBCAggregate::gather(const std::vector<TouchedShare> &mine) const
-{
-  if (comm->nprocs == 1) return mine;
-  const int bytes = static_cast<int>(mine.size() * sizeof(TouchedShare));
-  std::vector<int> counts(comm->nprocs), begins(comm->nprocs);
-  MPI_Allgather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
-  for (int r = 1; r < comm->nprocs; ++r) begins[r] = begins[r - 1] + counts[r - 1];
-  std::vector<TouchedShare> all((begins.back() + counts.back()) / sizeof(TouchedShare));
-  MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, all.data(), counts.data(), begins.data(), MPI_BYTE,
-                 world);
-  return all;
 }
 
 /* ---------------------------------------------------------------------- */

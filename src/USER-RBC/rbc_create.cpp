@@ -10,29 +10,13 @@
 #include "packing/cell_packing.h"
 #include "random_park.h"
 #include "region.h"
+#include "support/rbc_gather.h"
 #include "support/rbc_new_atoms.h"
 
 #include <Eigen/Geometry>
 
 using namespace LAMMPS_NS;
 using rbc::Vec3;
-
-namespace {
-
-/// Numbers of all tasks, in their order.
-std::vector<double> gather(const std::vector<double> &mine, const Comm *comm, MPI_Comm world)
-{
-  std::vector<int> counts(comm->nprocs), begins(comm->nprocs);
-  const int count = static_cast<int>(mine.size());
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
-  for (int r = 1; r < comm->nprocs; ++r) begins[r] = begins[r - 1] + counts[r - 1];
-  std::vector<double> all(begins.back() + counts.back());
-  MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), begins.data(),
-                 MPI_DOUBLE, world);
-  return all;
-}
-
-}    // namespace
 
 /* ---------------------------------------------------------------------- */
 
@@ -285,10 +269,10 @@ std::vector<Vec3> RBCCreate::existing_atoms() const
 {
   std::vector<double> mine;
   for (int i = 0; i < atom->nlocal; ++i) mine.insert(mine.end(), atom->x[i], atom->x[i] + 3);
-  const std::vector<double> all = gather(mine, comm, world);
+  const std::vector<double> all = gather_all(mine, world);
   std::vector<Vec3> places;
   for (std::size_t i = 0; i < all.size(); i += 3) places.emplace_back(&all[i]);
-  // the same order, whichever task has them
+  // the same order, whichever rank has them
   std::sort(places.begin(), places.end(), [](const Vec3 &a, const Vec3 &b) {
     return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
   });
@@ -307,7 +291,7 @@ std::vector<RBCCreate::Cell> RBCCreate::pack()
     kind_of.insert(kind_of.end(), kind.count, static_cast<int>(templates.size()));
     templates.push_back(kind.shape.get());
   }
-  const auto share = [this](const std::vector<double> &mine) { return gather(mine, comm, world); };
+  const auto share = [this](const std::vector<double> &mine) { return gather_all(mine, world); };
   rbc::CellPacking packing(box, templates, kind_of, gap, seed, {comm->me, comm->nprocs, share});
   packing.avoid(existing_atoms());
   const RegionEnclosure enclosure(region, domain, -gap / 2);
