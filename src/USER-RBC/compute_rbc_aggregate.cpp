@@ -178,7 +178,7 @@ ComputeRBCAggregate::Surface ComputeRBCAggregate::surface_here() const
   for (FixRBCMembrane *fix : cells.membranes()) {
     LocalCells &local = fix->local_cells();
     std::vector<double> areas(local.cells().size());
-    std::vector<Vec3> x(fix->shape().size());
+    std::vector<Vec3> x(fix->shape().vertex_count());
     for (std::size_t c = 0; c < areas.size(); ++c) {
       const LocalCells::Cell &cell = local.cells()[c];
       local.gather(cell, x);
@@ -196,7 +196,7 @@ ComputeRBCAggregate::Surface ComputeRBCAggregate::surface_here() const
 
     for (std::size_t c = 0; c < areas.size(); ++c) {
       const LocalCells::Cell &cell = local.cells()[c];
-      for (int v = 0; v < fix->shape().size(); ++v)
+      for (int v = 0; v < fix->shape().vertex_count(); ++v)
         if (cell.elements->owned[v]) surface.share[cell.atom[v]] /= areas[c];
       const int index = cells.index_of(local.molecules()[cell.index]);
       if (index >= 0) surface.split[index] = cell.shared >= 0;

@@ -124,7 +124,7 @@ FixRBCVTK::Source FixRBCVTK::select(FixRBCMembrane *membrane)
                 world);
 
   Source source{membrane, std::vector<int>(molecules.size(), -1), 0};
-  const int size = membrane->shape().size();
+  const int size = membrane->shape().vertex_count();
   for (std::size_t c = 0; c < molecules.size(); ++c) {
     if (inside[c] == size)
       source.slots[c] = source.count++;
@@ -224,7 +224,7 @@ std::vector<FixRBCVTK::Vertex> FixRBCVTK::collect(const Source &source,
                                                   const std::vector<int> &writers)
 {
   const std::vector<LocalCells::Cell> &cells = source.membrane->local_cells().cells();
-  const int size = source.membrane->shape().size();
+  const int size = source.membrane->shape().vertex_count();
   std::vector<Vertex> sent;
   std::vector<int> ranks;
   for (std::size_t c = 0; c < cells.size(); ++c) {
@@ -261,7 +261,7 @@ void FixRBCVTK::write_cells(const Source &source, int block, const std::vector<i
   const LocalCells &local = source.membrane->local_cells();
   const rbc::SurfaceTemplate &shape = source.membrane->shape();
   const rbc::MembraneParameters &parameters = source.membrane->membrane_model().parameters();
-  const int size = shape.size();
+  const int size = shape.vertex_count();
 
   std::vector<const LocalCells::Cell *> mine;
   for (std::size_t c = 0; c < writers.size(); ++c)

@@ -38,7 +38,8 @@ void RBCCreate::command(int narg, char **arg)
   create_atoms(cells);
   if (comm->me != 0) return;
   for (const Kind &kind : kinds)
-    utils::logmesg(lmp, "Created {} cells of {} vertices\n", kind.count, kind.shape->size());
+    utils::logmesg(lmp, "Created {} cells of {} vertices\n", kind.count,
+                   kind.shape->vertex_count());
   utils::logmesg(lmp, "  rbc/create CPU = {:.3f} seconds\n", platform::walltime() - begin);
 }
 
@@ -253,7 +254,7 @@ RBCCreate::Cell RBCCreate::place_single() const
 {
   Cell cell{&kinds[0], centre, rotation};
   const double *lower = domain->boxlo, *upper = domain->boxhi;
-  for (int v = 0; v < kinds[0].shape->size(); ++v) {
+  for (int v = 0; v < kinds[0].shape->vertex_count(); ++v) {
     const Vec3 vertex = cell.vertex(v);
     for (int d = 0; d < 3; ++d)
       if (!domain->periodicity[d] && (vertex[d] <= lower[d] || vertex[d] >= upper[d]))
@@ -312,7 +313,7 @@ std::vector<RBCCreate::Cell> RBCCreate::pack()
 
   std::vector<Cell> cells;
   for (std::size_t c = 0; c < kind_of.size(); ++c)
-    cells.push_back({&kinds[kind_of[c]], packing.cells()[c].centre, packing.cells()[c].turn});
+    cells.push_back({&kinds[kind_of[c]], packing.cells()[c].centre, packing.cells()[c].rotation});
   return cells;
 }
 
@@ -326,7 +327,7 @@ void RBCCreate::create_atoms(const std::vector<Cell> &cells)
   for (int i = 0; i < atom->nlocal; ++i) molecule = std::max(molecule, atom->molecule[i]);
   MPI_Allreduce(MPI_IN_PLACE, &molecule, 1, MPI_LMP_TAGINT, MPI_MAX, world);
   bigint vertices = 0;
-  for (const Cell &cell : cells) vertices += cell.kind->shape->size();
+  for (const Cell &cell : cells) vertices += cell.kind->shape->vertex_count();
 
   RanPark random(lmp, std::max(seed, 1));
   NewAtoms atoms(lmp, "Rbc/create", vertices);
@@ -334,7 +335,7 @@ void RBCCreate::create_atoms(const std::vector<Cell> &cells)
     ++molecule;
     double velocity[3];
     for (double &component : velocity) component = speed * (2 * random.uniform() - 1);
-    for (int v = 0; v < cell.kind->shape->size(); ++v) {
+    for (int v = 0; v < cell.kind->shape->vertex_count(); ++v) {
       const NewAtoms::Made made = atoms.add(cell.kind->type, cell.vertex(v));
       if (made.index < 0) continue;
       atom->molecule[made.index] = molecule;

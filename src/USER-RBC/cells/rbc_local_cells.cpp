@@ -211,7 +211,7 @@ void LocalCells::find_neighbours(std::size_t at, tagint first, const std::vector
   for (int ring = 0; ring < rings; ++ring) {
     std::vector<int> next;
     for (int v : front)
-      for (int w : shape.neighbours[v]) {
+      for (int w : shape.neighbors[v]) {
         if (atoms[at + w] >= 0) continue;
         const int j = atom->map(first + w);
         if (j < 0) continue;

@@ -96,7 +96,7 @@ class NearTriangles {
   std::vector<Surface> surfaces_;    // of points
   std::vector<Triangle> triangles_;
   SeesOwn sees_own_;
-  std::vector<int> fan_begin_, fans_;    // triangles around each corner
+  std::vector<int> incident_begin_, incident_;    // triangles around each corner
   RelativeMotion motion_;
   int corners_ = 0;
   std::vector<Sphere> bounds_;    // of each triangle
@@ -108,7 +108,7 @@ class NearTriangles {
   std::vector<Candidate> candidates_;
   std::vector<VertexContact> contacts_;
 
-  void build_fans(int corners);
+  void find_incident(int corners);
   double bound_triangles(const double *x);
   void sort_spheres(const SpatialBins &bins);
   void find_surface_ranges(const SpatialBins &bins);
