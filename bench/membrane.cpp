@@ -35,7 +35,7 @@ class Case {
       benchmark::DoNotOptimize(f_.data());
       benchmark::ClobberMemory();
     }
-    const double evaluations = static_cast<double>(state.iterations()) * shape_.size();
+    const double evaluations = static_cast<double>(state.iterations()) * shape_.vertex_count();
     state.counters["vertex"] =
         benchmark::Counter(evaluations, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   }

@@ -6,6 +6,7 @@
 #include "error.h"
 #include "memory.h"
 #include "neighbor.h"
+#include "support/rbc_gather.h"
 #include "update.h"
 
 #include <Eigen/Geometry>
@@ -134,7 +135,7 @@ void ComputeRBCAggregate::find_aggregates()
   if (found_step == update->ntimestep) return;
   found_step = update->ntimestep;
   sets = rbc::DisjointSets(cells.size());
-  rbc::unite_touching(sets, gather(touched_here()), least_share);
+  rbc::unite_touching(sets, gather_all(touched_here(), world), least_share);
   sizes = rbc::AggregateSizes(sets);
 }
 
@@ -176,7 +177,7 @@ ComputeRBCAggregate::Surface ComputeRBCAggregate::surface_here() const
   for (CellMembranes *membranes : cells.membranes()) {
     LocalCells &local = membranes->local_cells();
     std::vector<double> areas(local.cells().size());
-    std::vector<Vec3> x(membranes->shape().size());
+    std::vector<Vec3> x(membranes->shape().vertex_count());
     for (std::size_t c = 0; c < areas.size(); ++c) {
       const LocalCells::Cell &cell = local.cells()[c];
       local.gather(cell, x);
@@ -194,30 +195,13 @@ ComputeRBCAggregate::Surface ComputeRBCAggregate::surface_here() const
 
     for (std::size_t c = 0; c < areas.size(); ++c) {
       const LocalCells::Cell &cell = local.cells()[c];
-      for (int v = 0; v < membranes->shape().size(); ++v)
+      for (int v = 0; v < membranes->shape().vertex_count(); ++v)
         if (cell.elements->owned[v]) surface.share[cell.atom[v]] /= areas[c];
       const int index = cells.index_of(local.molecules()[cell.index]);
       if (index >= 0) surface.split[index] = cell.shared >= 0;
     }
   }
   return surface;
-}
-
-/* ----------------------------------------------------------------------
-   those of all ranks
-------------------------------------------------------------------------- */
-
-std::vector<TouchedShare> ComputeRBCAggregate::gather(const std::vector<TouchedShare> &mine) const
-{
-  if (comm->nprocs == 1) return mine;
-  const int bytes = static_cast<int>(mine.size() * sizeof(TouchedShare));
-  std::vector<int> counts(comm->nprocs), begins(comm->nprocs);
-  MPI_Allgather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
-  for (int r = 1; r < comm->nprocs; ++r) begins[r] = begins[r - 1] + counts[r - 1];
-  std::vector<TouchedShare> all((begins.back() + counts.back()) / sizeof(TouchedShare));
-  MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, all.data(), counts.data(), begins.data(), MPI_BYTE,
-                 world);
-  return all;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -46,7 +46,6 @@ class ComputeRBCAggregate : public Compute {
 
   void find_aggregates();
   std::vector<rbc::TouchedShare> touched_here();
-  std::vector<rbc::TouchedShare> gather(const std::vector<rbc::TouchedShare> &) const;
   Surface surface_here() const;
 };
 

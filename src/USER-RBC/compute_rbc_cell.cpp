@@ -103,7 +103,7 @@ void ComputeRBCCell::add_sums(CellMembranes &membranes)
 {
   LocalCells &local = membranes.local_cells();
   const rbc::SurfaceTemplate &shape = membranes.shape();
-  std::vector<Vec3> x(shape.size());
+  std::vector<Vec3> x(shape.vertex_count());
   for (const LocalCells::Cell &cell : local.cells()) {
     const int row = cells.index_of(local.molecules()[cell.index]);
     if (row < 0) continue;
@@ -124,7 +124,7 @@ void ComputeRBCCell::add_sums(CellMembranes &membranes)
     s[SECOND + 4] += moments.second(0, 2);
     s[SECOND + 5] += moments.second(1, 2);
     int owned = 0;
-    for (int v = 0; v < shape.size(); ++v) {
+    for (int v = 0; v < shape.vertex_count(); ++v) {
       if (!cell.elements->owned[v]) continue;
       ++owned;
       for (int d = 0; d < 3; ++d) s[SPEED + d] += atom->v[cell.atom[v]][d];

@@ -62,22 +62,21 @@ MembraneSettings FixRBCMembrane::parse(int narg, char **arg)
   };
 
   const std::string law = arg[iarg];
-  if (law == "mooney-rivlin") {
-    need(3, law);
-    parameters.law = rbc::MooneyRivlin(positive(5, law + " C1"), not_negative(6, law + " C2"),
-                                       positive(7, law + " h"));
-    iarg += 4;
-  } else if (law == "neo-hookean") {
-    need(1, law);
-    parameters.law = rbc::NeoHookean(positive(5, law + " Gs"));
-    iarg += 2;
-  } else if (law == "skalak") {
-    need(2, law);
-    parameters.law = rbc::Skalak(positive(5, law + " Gs"), not_negative(6, law + " C"));
-    iarg += 3;
-  } else
-    error->all(FLERR, iarg,
-               "Unknown fix rbc/membrane law {}; allowed: mooney-rivlin, neo-hookean, skalak", law);
+  const std::size_t index = rbc::law_index<rbc::SheetLaw>(law);
+  if (index == std::variant_size_v<rbc::SheetLaw>)
+    error->all(FLERR, iarg, "Unknown fix rbc/membrane law {}; allowed: {}", law,
+               rbc::law_names<rbc::SheetLaw>());
+  const auto law_parameters = rbc::law_parameters<rbc::SheetLaw>(index);
+  need(static_cast<int>(law_parameters.size()), law);
+  std::vector<double> values;
+  for (const rbc::LawParameter &parameter : law_parameters) {
+    const std::string name = law + ' ' + parameter.name;
+    ++iarg;
+    values.push_back(parameter.bound == rbc::Bound::positive ? positive(iarg, name)
+                                                             : not_negative(iarg, name));
+  }
+  ++iarg;
+  parameters.law = rbc::make_law<rbc::SheetLaw>(index, values);
 
   while (iarg < narg) {
     const std::string keyword = arg[iarg];

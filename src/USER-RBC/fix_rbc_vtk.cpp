@@ -123,7 +123,7 @@ FixRBCVTK::Source FixRBCVTK::select(CellMembranes &membranes)
                 world);
 
   Source source{&membranes, std::vector<int>(molecules.size(), -1), 0};
-  const int size = membranes.shape().size();
+  const int size = membranes.shape().vertex_count();
   for (std::size_t c = 0; c < molecules.size(); ++c) {
     if (inside[c] == size)
       source.slots[c] = source.count++;
@@ -223,7 +223,7 @@ std::vector<FixRBCVTK::Vertex> FixRBCVTK::collect(const Source &source,
                                                   const std::vector<int> &writers)
 {
   const std::vector<LocalCells::Cell> &cells = source.membranes->local_cells().cells();
-  const int size = source.membranes->shape().size();
+  const int size = source.membranes->shape().vertex_count();
   std::vector<Vertex> sent;
   std::vector<int> ranks;
   for (std::size_t c = 0; c < cells.size(); ++c) {
@@ -260,7 +260,7 @@ void FixRBCVTK::write_cells(const Source &source, int block, const std::vector<i
   const LocalCells &local = source.membranes->local_cells();
   const rbc::SurfaceTemplate &shape = source.membranes->shape();
   const rbc::MembraneParameters &parameters = source.membranes->parameters();
-  const int size = shape.size();
+  const int size = shape.vertex_count();
 
   std::vector<const LocalCells::Cell *> mine;
   for (std::size_t c = 0; c < writers.size(); ++c)

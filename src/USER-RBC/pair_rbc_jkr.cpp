@@ -5,7 +5,6 @@
 #include "comm.h"
 #include "error.h"
 #include "force.h"
-#include "math_const.h"
 #include "memory.h"
 #include "neighbor.h"
 
@@ -14,17 +13,19 @@
 #include <cstring>
 
 using namespace LAMMPS_NS;
-using rbc::TipContact;
+using rbc::ContactLaw;
 
-// of the cutoff: how far along its own surface a vertex sees nothing. A surface that turns by half a circle is as far from
-// itself as the cutoff after pi / 2 of it; the rest is for surfaces that are compressed.
+// How far along its own surface a vertex sees nothing, in cutoffs. A surface that turns by half a
+// circle is as far from itself as the cutoff after pi / 2 of it. The rest is for surfaces that are
+// compressed.
 
 static constexpr double OWN_PATCH = 2.5;
 
 /* ---------------------------------------------------------------------- */
 
 PairRBCJKR::PairRBCJKR(LAMMPS *lmp) :
-    Pair(lmp), surfaces(std::make_unique<NearSurfaces>(lmp, "Pair rbc/jkr"))
+    Pair(lmp), names(rbc::parameter_names<ContactLaw>()), parameters(names.size()),
+    surfaces(std::make_unique<NearSurfaces>(lmp, "Pair rbc/jkr"))
 {
   writedata = 0;
   reinitflag = 1;
@@ -42,9 +43,7 @@ PairRBCJKR::~PairRBCJKR()
   memory->destroy(setflag);
   memory->destroy(cutsq);
   memory->destroy(kind);
-  memory->destroy(modulus);
-  memory->destroy(work);
-  memory->destroy(radius);
+  for (double **&values : parameters) memory->destroy(values);
 }
 
 void PairRBCJKR::allocate()
@@ -54,15 +53,14 @@ void PairRBCJKR::allocate()
   memory->create(setflag, n, n, "pair:setflag");
   memory->create(cutsq, n, n, "pair:cutsq");
   memory->create(kind, n, n, "pair:kind");
-  memory->create(modulus, n, n, "pair:modulus");
-  memory->create(work, n, n, "pair:work");
-  memory->create(radius, n, n, "pair:radius");
+  for (double **&values : parameters) memory->create(values, n, n, "pair:parameters");
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
       setflag[i][j] = kind[i][j] = 0;
-      cutsq[i][j] = modulus[i][j] = work[i][j] = radius[i][j] = 0;
+      cutsq[i][j] = 0;
+      for (double **values : parameters) values[i][j] = 0;
     }
-  tips.assign(std::size_t(n) * n, {});
+  type_pairs.assign(std::size_t(n) * n, {});
 }
 
 /* ---------------------------------------------------------------------- */
@@ -99,49 +97,56 @@ void PairRBCJKR::coeff(int narg, char **arg)
   utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
   utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
 
-  const std::string word = arg[2];
-  const auto numbers = [&](int count, const std::string &names) {
-    if (narg != 3 + count)
-      error->all(FLERR, "Pair_coeff rbc/jkr {} takes {} values ({}), not {}", word, count, names,
-                 narg - 3);
-  };
-  const auto positive = [&](int at, const std::string &name) {
-    const double value = utils::numeric(FLERR, arg[at], false, lmp);
-    if (!(value > 0) || !std::isfinite(value))
-      error->all(FLERR, at, "Pair_coeff rbc/jkr {} {} value {} must be > 0", word, name, arg[at]);
-    return value;
-  };
-
-  Kind which = NONE;
-  double K = 0, sigma = 0, R = 0;
-  if (word == "adhesive") {
-    numbers(3, "K sigma R");
-    which = ADHESIVE;
-    K = positive(3, "K");
-    sigma = positive(4, "sigma");
-    R = positive(5, "R");
-  } else if (word == "repulsive") {
-    numbers(2, "K R");
-    which = REPULSIVE;
-    K = positive(3, "K");
-    R = positive(4, "R");
-  } else if (word == "none")
-    numbers(0, "none");
-  else
-    error->all(FLERR, 2, "Unknown pair_coeff rbc/jkr word {}; allowed: adhesive, repulsive, none",
-               word);
+  std::vector<double> given(names.size());
+  const std::size_t law = read_law(narg, arg, given);
 
   int count = 0;
   for (int i = ilo; i <= ihi; ++i)
     for (int j = std::max(jlo, i); j <= jhi; ++j) {
-      kind[i][j] = which;
-      modulus[i][j] = K;
-      work[i][j] = sigma;
-      radius[i][j] = R;
+      kind[i][j] = law < std::variant_size_v<ContactLaw> ? 1 + static_cast<int>(law) : 0;
+      for (std::size_t p = 0; p < names.size(); ++p) parameters[p][i][j] = given[p];
       setflag[i][j] = 1;
       ++count;
     }
   if (count == 0) error->all(FLERR, "Incorrect args for pair coefficients");
+}
+
+/* ----------------------------------------------------------------------
+   returns the place of the law in the table, which is its end for none, and sets its parameters
+------------------------------------------------------------------------- */
+
+std::size_t PairRBCJKR::read_law(int narg, char **arg, std::vector<double> &given) const
+{
+  const std::string word = arg[2];
+  const std::size_t law = rbc::law_index<ContactLaw>(word);
+  if (law == std::variant_size_v<ContactLaw> && word != "none")
+    error->all(FLERR, 2, "Unknown pair_coeff rbc/jkr word {}; allowed: {}, none", word,
+               rbc::law_names<ContactLaw>());
+
+  const auto needed = rbc::law_parameters<ContactLaw>(law);
+  if (narg != 3 + static_cast<int>(needed.size())) {
+    std::string list;
+    for (const auto &parameter : needed)
+      list += (list.empty() ? "" : " ") + std::string(parameter.name);
+    error->all(FLERR, "Pair_coeff rbc/jkr {} takes {} values ({}), not {}", word, needed.size(),
+               needed.empty() ? "none" : list, narg - 3);
+  }
+  int at = 3;
+  for (const auto &[name, bound] : needed) {
+    const double value = utils::numeric(FLERR, arg[at], false, lmp);
+    const bool positive = bound == rbc::Bound::positive;
+    if (!(positive ? value > 0 : value >= 0) || !std::isfinite(value))
+      error->all(FLERR, at, "Pair_coeff rbc/jkr {} {} value {} must be {} 0", word, name, arg[at],
+                 positive ? ">" : ">=");
+    given[place_of(name)] = value;
+    ++at;
+  }
+  return law;
+}
+
+std::size_t PairRBCJKR::place_of(const std::string &name) const
+{
+  return std::find(names.begin(), names.end(), name) - names.begin();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -154,8 +159,8 @@ void PairRBCJKR::init_style()
   surfaces->see_own_cells(own_cells ? OWN_PATCH * cutoff : 0);
   surfaces->init();
   check_cells();
-  std::fill(tips.begin(), tips.end(),
-            TipContact());    // pair_style hybrid may have taken pairs away
+  // pair_style hybrid may have taken pairs away
+  std::fill(type_pairs.begin(), type_pairs.end(), TypePair());
   range = 0;
   neighbor_calls = neighbor_step = -1;
 }
@@ -170,7 +175,7 @@ void PairRBCJKR::check_cells()
   std::vector<char> touches(n);
   for (int i = 1; i < n; ++i)
     for (int j = i; j < n; ++j)
-      if (setflag[i][j] && kind[i][j] != NONE) touches[i] = touches[j] = 1;
+      if (setflag[i][j] && kind[i][j] != 0) touches[i] = touches[j] = 1;
 
   tagint lone = MAXTAGINT, mixed = MAXTAGINT, largest = 0;
   for (int i = 0; i < atom->nlocal; ++i) {
@@ -205,26 +210,33 @@ void PairRBCJKR::check_cells()
 
 /* ---------------------------------------------------------------------- */
 
-TipContact PairRBCJKR::make_tip(int i, int j) const
+std::vector<double> PairRBCJKR::values(int i, int j) const
 {
-  switch (kind[i][j]) {
-    case ADHESIVE:
-      return TipContact::adhesive(modulus[i][j], work[i][j], radius[i][j]);
-    case REPULSIVE:
-      return TipContact::repulsive(modulus[i][j], radius[i][j]);
-    default:
-      return {};
-  }
+  std::vector<double> found;
+  for (const auto &parameter : rbc::law_parameters<ContactLaw>(kind[i][j] - 1))
+    found.push_back(parameters[place_of(parameter.name)][i][j]);
+  return found;
 }
 
-const TipContact &PairRBCJKR::tip(int itype, int jtype) const
+PairRBCJKR::TypePair PairRBCJKR::make_type_pair(int i, int j) const
 {
-  return tips[std::size_t(itype) * (atom->ntypes + 1) + jtype];
+  if (kind[i][j] == 0) return {};
+  TypePair pair;
+  pair.law = rbc::make_law<ContactLaw>(kind[i][j] - 1, values(i, j));
+  std::visit(
+      [&pair](const auto &law) {
+        pair.tip_radius = law.tip_radius();
+        pair.detachment = law.detachment_overlap();
+        pair.equilibrium = law.equilibrium_overlap();
+        pair.work = law.work_per_area();
+      },
+      *pair.law);
+  return pair;
 }
 
-double PairRBCJKR::range_of(int i, int j) const
+const PairRBCJKR::TypePair &PairRBCJKR::types(int itype, int jtype) const
 {
-  return tip(i, j).tip_radius() - tip(i, j).separation();
+  return type_pairs[std::size_t(itype) * (atom->ntypes + 1) + jtype];
 }
 
 /* ----------------------------------------------------------------------
@@ -245,22 +257,20 @@ double PairRBCJKR::init_one(int i, int j)
   if (!setflag[i][j])
     error->all(FLERR, "Pair rbc/jkr does not mix: types {} {} need a pair_coeff", i, j);
   const int n = atom->ntypes + 1;
-  tips[std::size_t(i) * n + j] = tips[std::size_t(j) * n + i] = make_tip(i, j);
-  const TipContact &contact = tip(i, j);
-  if (!contact.touches()) return 0;
-  if (range_of(i, j) > cutoff)
+  const TypePair pair = make_type_pair(i, j);
+  type_pairs[std::size_t(i) * n + j] = type_pairs[std::size_t(j) * n + i] = pair;
+  if (!pair.law) return 0;
+  if (pair.range() > cutoff)
     error->all(FLERR,
                "Pair rbc/jkr cutoff {} must be at least {:.6g}, where surfaces of types {} {} lose "
                "contact",
-               cutoff, range_of(i, j), i, j);
-  if (contact.equilibrium() >= contact.tip_radius())
-    error->all(FLERR,
-               "Pair rbc/jkr: adhered surfaces of types {} {} would overlap by {:.6g}; sigma/K "
-               "must be < {:.6g}",
-               i, j, contact.equilibrium() - contact.tip_radius(),
-               std::sqrt(3.0) / MathConst::MY_2PI * contact.tip_radius());
-  if (range_of(i, j) > range) {
-    range = range_of(i, j);
+               cutoff, pair.range(), i, j);
+  if (pair.equilibrium >= pair.tip_radius)
+    error->all(FLERR, "Pair rbc/jkr: adhered surfaces of types {} {} would overlap by {:.6g}; {}",
+               i, j, pair.equilibrium - pair.tip_radius,
+               std::visit([](const auto &law) { return law.limit(); }, *pair.law));
+  if (pair.range() > range) {
+    range = pair.range();
     neighbor_calls = -1;    // fix adapt may have raised it
   }
   return cutoff + surfaces->longest_edge() + slack() - neighbor->skin;
@@ -278,15 +288,18 @@ void PairRBCJKR::setup()
                    OWN_PATCH * cutoff);
   for (int i = 1; i <= atom->ntypes; ++i)
     for (int j = i; j <= atom->ntypes; ++j) {
-      if (!setflag[i][j] || !tip(i, j).touches()) continue;
-      const TipContact &contact = tip(i, j);
-      const double gap = contact.tip_radius() - contact.equilibrium();
+      const TypePair &pair = types(i, j);
+      if (!setflag[i][j] || !pair.law) continue;
+      const auto largest_adhesion = [](const auto &law) { return law.largest_adhesion(); };
+      const auto repulsion = [&](const auto &law) {
+        return law.per_area(pair.tip_radius).traction;
+      };
       utils::logmesg(lmp,
                      "Pair rbc/jkr, types {} {}: gap {:.6g} at rest, range {:.6g}, work per area "
                      "{:.6g}, stress of adhesion up to {:.6g}, of repulsion {:.6g} where surfaces "
                      "meet\n",
-                     i, j, gap, range_of(i, j), work[i][j], contact.pull_off() / contact.tip_area(),
-                     contact.per_area(contact.tip_radius()).traction);
+                     i, j, pair.tip_radius - pair.equilibrium, pair.range(), pair.work,
+                     std::visit(largest_adhesion, *pair.law), std::visit(repulsion, *pair.law));
     }
 }
 
@@ -314,27 +327,29 @@ void PairRBCJKR::compute(int eflag, int vflag)
 }
 
 /* ----------------------------------------------------------------------
-   a vertex stands for its share of area; its force returns to the corners of the triangle it meets. A pair of surfaces
-   counts from both sides, so each side has half of the energy. Through its inside a cell repels itself only.
+   a vertex stands for its share of area; its force returns to the corners of the triangle it meets.
+   A pair of surfaces counts from both sides, so each side has half of the energy. A cell may meet
+   itself from within, through its inside; then it repels itself only.
 ------------------------------------------------------------------------- */
 
-void PairRBCJKR::add_forces(const std::vector<rbc::NearTriangles::Contact> &contacts)
+void PairRBCJKR::add_forces(const std::vector<rbc::VertexContact> &contacts)
 {
   const bool returned = force->newton;
   if (!returned) reactions.assign(3 * std::size_t(atom->nlocal + atom->nghost), 0.0);
   adhered_area = 0;
   for (const auto &contact : contacts) {
     const int i = contact.point;
-    const TipContact &surface = tip(atom->type[i], atom->type[contact.corner[0]]);
+    const TypePair &pair = types(atom->type[i], atom->type[contact.corner[0]]);
     const bool through_inside =
         contact.gap < 0 && atom->molecule[i] == atom->molecule[contact.corner[0]];
     const double gap = through_inside ? -contact.gap : contact.gap;
-    const double overlap = surface.tip_radius() - gap;
-    const double detachment = through_inside ? surface.equilibrium() : surface.separation();
-    if (!surface.touches() || overlap <= detachment) continue;
+    const double overlap = pair.tip_radius - gap;
+    const double detachment = through_inside ? pair.equilibrium : pair.detachment;
+    if (!pair.law || overlap <= detachment) continue;
 
-    auto [traction, energy] = surface.per_area(overlap);
-    if (through_inside) energy += work[atom->type[i]][atom->type[i]];
+    auto [traction, energy] =
+        std::visit([overlap](const auto &law) { return law.per_area(overlap); }, *pair.law);
+    if (through_inside) energy += pair.work;
     const double area = surfaces->area(i) / 2;
     const double side = through_inside ? -1 : 1;
     const double normal[3] = {side * contact.normal.x, side * contact.normal.y,
@@ -395,12 +410,12 @@ double PairRBCJKR::single(int /*i*/, int /*j*/, int itype, int jtype, double rsq
                           double /*factor_coul*/, double /*factor_lj*/, double &fforce)
 {
   const double r = std::sqrt(rsq);
-  const TipContact &contact = tip(itype, jtype);
-  const double overlap = contact.tip_radius() - r;
+  const TypePair &pair = types(itype, jtype);
+  const double overlap = pair.tip_radius - r;
   fforce = 0;
-  if (!contact.touches() || overlap <= contact.separation()) return 0;
-  fforce = contact.force(overlap) / r;
-  return contact.energy(overlap);
+  if (!pair.law || overlap <= pair.detachment) return 0;
+  fforce = std::visit([=](const auto &law) { return law.force(overlap); }, *pair.law) / r;
+  return std::visit([=](const auto &law) { return law.energy(overlap); }, *pair.law);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -408,22 +423,32 @@ double PairRBCJKR::single(int /*i*/, int /*j*/, int itype, int jtype, double rsq
 void *PairRBCJKR::extract(const char *name, int &dim)
 {
   dim = 2;
-  if (strcmp(name, "K") == 0) return modulus;
-  if (strcmp(name, "sigma") == 0) return work;
-  if (strcmp(name, "R") == 0) return radius;
-  return nullptr;
+  const std::size_t place = place_of(name);
+  return place < names.size() ? parameters[place] : nullptr;
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   how many parameters a pair of types has in a restart file: those up to the last one its law uses,
+   and at least the three that the first laws had. So files stay readable when laws are added.
+------------------------------------------------------------------------- */
+
+std::size_t PairRBCJKR::restart_count(int law_kind) const
+{
+  std::size_t count = 3;
+  for (const auto &parameter : rbc::law_parameters<ContactLaw>(law_kind - 1))
+    count = std::max(count, place_of(parameter.name) + 1);
+  return count;
+}
 
 void PairRBCJKR::write_restart(FILE *fp)
 {
   write_restart_settings(fp);
   for (int i = 1; i <= atom->ntypes; ++i)
     for (int j = i; j <= atom->ntypes; ++j) {
-      const double numbers[5] = {double(setflag[i][j]), double(kind[i][j]), modulus[i][j],
-                                 work[i][j], radius[i][j]};
-      fwrite(numbers, sizeof(double), 5, fp);
+      std::vector<double> numbers{double(setflag[i][j]), double(kind[i][j])};
+      for (std::size_t p = 0; p < restart_count(kind[i][j]); ++p)
+        numbers.push_back(parameters[p][i][j]);
+      fwrite(numbers.data(), sizeof(double), numbers.size(), fp);
     }
 }
 
@@ -431,16 +456,19 @@ void PairRBCJKR::read_restart(FILE *fp)
 {
   read_restart_settings(fp);
   if (!allocated) allocate();
+  const auto read = [&](double *numbers, std::size_t count) {
+    if (comm->me == 0) utils::sfread(FLERR, numbers, sizeof(double), count, fp, nullptr, error);
+    MPI_Bcast(numbers, static_cast<int>(count), MPI_DOUBLE, 0, world);
+  };
   for (int i = 1; i <= atom->ntypes; ++i)
     for (int j = i; j <= atom->ntypes; ++j) {
-      double numbers[5];
-      if (comm->me == 0) utils::sfread(FLERR, numbers, sizeof(double), 5, fp, nullptr, error);
-      MPI_Bcast(numbers, 5, MPI_DOUBLE, 0, world);
-      setflag[i][j] = static_cast<int>(numbers[0]);
-      kind[i][j] = static_cast<int>(numbers[1]);
-      modulus[i][j] = numbers[2];
-      work[i][j] = numbers[3];
-      radius[i][j] = numbers[4];
+      double flags[2];
+      read(flags, 2);
+      setflag[i][j] = static_cast<int>(flags[0]);
+      kind[i][j] = static_cast<int>(flags[1]);
+      std::vector<double> numbers(restart_count(kind[i][j]));
+      read(numbers.data(), numbers.size());
+      for (std::size_t p = 0; p < numbers.size(); ++p) parameters[p][i][j] = numbers[p];
     }
 }
 

@@ -7,12 +7,14 @@ PairStyle(rbc/jkr,PairRBCJKR);
 #ifndef LMP_PAIR_RBC_JKR_H
 #define LMP_PAIR_RBC_JKR_H
 
-#include "contact/jkr_contact.h"
+#include "contact/contact_laws.h"
 #include "contact/near_triangles.h"
 #include "pair.h"
 #include "support/rbc_step_part.h"
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -44,16 +46,29 @@ class PairRBCJKR : public Pair, public StepPart {
   }
 
  private:
-  enum Kind { NONE, ADHESIVE, REPULSIVE };
+  /// How the surfaces of a pair of types act on each other.
+  struct TypePair {
+    std::optional<rbc::ContactLaw> law;    ///< none: they do not touch
+    double tip_radius = 0;                 ///< gap at which the overlap is zero
+    double detachment = 0;                 ///< overlap at which contact is lost
+    double equilibrium = 0;                ///< overlap at which the force vanishes
+    double work = 0;                       ///< energy per area to separate surfaces from there
+
+    double range() const { return tip_radius - detachment; }
+  };
 
   double cutoff = 0;
   bool own_cells = false;    // cells touch themselves, too
-  int **kind = nullptr;
-  double **modulus = nullptr, **work = nullptr, **radius = nullptr;
+
+  // arrays over pairs of types, as pair_coeff and fix adapt set them
+
+  int **kind = nullptr;                 // 0 for none, else 1 + place of the law in the table
+  std::vector<std::string> names;       // of the parameters of all laws
+  std::vector<double **> parameters;    // values of each of these, 0 where the law has none such
 
   std::unique_ptr<class NearSurfaces> surfaces;
-  std::vector<rbc::TipContact> tips;    // of pairs of types
-  double range = 0;                     // largest of them
+  std::vector<TypePair> type_pairs;
+  double range = 0;    // largest of them
   bigint neighbor_calls = -1, neighbor_step = -1;
 
   double adhered_area = 0;
@@ -61,13 +76,16 @@ class PairRBCJKR : public Pair, public StepPart {
   std::vector<double> reactions;    // on all atoms, if forces on ghosts are not returned
 
   void allocate();
-  rbc::TipContact make_tip(int, int) const;
-  double range_of(int, int) const;
+  std::size_t place_of(const std::string &) const;
+  std::size_t read_law(int, char **, std::vector<double> &) const;
+  std::vector<double> values(int, int) const;
+  TypePair make_type_pair(int, int) const;
+  const TypePair &types(int itype, int jtype) const;
+  std::size_t restart_count(int kind) const;
   double slack() const;
-  const rbc::TipContact &tip(int itype, int jtype) const;
   void check_cells();
   bool neighbors_changed();
-  void add_forces(const std::vector<rbc::NearTriangles::Contact> &);
+  void add_forces(const std::vector<rbc::VertexContact> &);
   void tally(int, double, double, const double *);
 };
 

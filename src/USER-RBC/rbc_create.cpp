@@ -10,29 +10,13 @@
 #include "packing/cell_packing.h"
 #include "random_park.h"
 #include "region.h"
+#include "support/rbc_gather.h"
 #include "support/rbc_new_atoms.h"
 
 #include <Eigen/Geometry>
 
 using namespace LAMMPS_NS;
 using rbc::Vec3;
-
-namespace {
-
-/// Numbers of all tasks, in their order.
-std::vector<double> gather(const std::vector<double> &mine, const Comm *comm, MPI_Comm world)
-{
-  std::vector<int> counts(comm->nprocs), begins(comm->nprocs);
-  const int count = static_cast<int>(mine.size());
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
-  for (int r = 1; r < comm->nprocs; ++r) begins[r] = begins[r - 1] + counts[r - 1];
-  std::vector<double> all(begins.back() + counts.back());
-  MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), begins.data(),
-                 MPI_DOUBLE, world);
-  return all;
-}
-
-}    // namespace
 
 /* ---------------------------------------------------------------------- */
 
@@ -54,7 +38,8 @@ void RBCCreate::command(int narg, char **arg)
   create_atoms(cells);
   if (comm->me != 0) return;
   for (const Kind &kind : kinds)
-    utils::logmesg(lmp, "Created {} cells of {} vertices\n", kind.count, kind.shape->size());
+    utils::logmesg(lmp, "Created {} cells of {} vertices\n", kind.count,
+                   kind.shape->vertex_count());
   utils::logmesg(lmp, "  rbc/create CPU = {:.3f} seconds\n", platform::walltime() - begin);
 }
 
@@ -269,7 +254,7 @@ RBCCreate::Cell RBCCreate::place_single() const
 {
   Cell cell{&kinds[0], centre, rotation};
   const double *lower = domain->boxlo, *upper = domain->boxhi;
-  for (int v = 0; v < kinds[0].shape->size(); ++v) {
+  for (int v = 0; v < kinds[0].shape->vertex_count(); ++v) {
     const Vec3 vertex = cell.vertex(v);
     for (int d = 0; d < 3; ++d)
       if (!domain->periodicity[d] && (vertex[d] <= lower[d] || vertex[d] >= upper[d]))
@@ -285,10 +270,10 @@ std::vector<Vec3> RBCCreate::existing_atoms() const
 {
   std::vector<double> mine;
   for (int i = 0; i < atom->nlocal; ++i) mine.insert(mine.end(), atom->x[i], atom->x[i] + 3);
-  const std::vector<double> all = gather(mine, comm, world);
+  const std::vector<double> all = gather_all(mine, world);
   std::vector<Vec3> places;
   for (std::size_t i = 0; i < all.size(); i += 3) places.emplace_back(&all[i]);
-  // the same order, whichever task has them
+  // the same order, whichever rank has them
   std::sort(places.begin(), places.end(), [](const Vec3 &a, const Vec3 &b) {
     return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
   });
@@ -307,7 +292,7 @@ std::vector<RBCCreate::Cell> RBCCreate::pack()
     kind_of.insert(kind_of.end(), kind.count, static_cast<int>(templates.size()));
     templates.push_back(kind.shape.get());
   }
-  const auto share = [this](const std::vector<double> &mine) { return gather(mine, comm, world); };
+  const auto share = [this](const std::vector<double> &mine) { return gather_all(mine, world); };
   rbc::CellPacking packing(box, templates, kind_of, gap, seed, {comm->me, comm->nprocs, share});
   packing.avoid(existing_atoms());
   const RegionEnclosure enclosure(region, domain, -gap / 2);
@@ -328,7 +313,7 @@ std::vector<RBCCreate::Cell> RBCCreate::pack()
 
   std::vector<Cell> cells;
   for (std::size_t c = 0; c < kind_of.size(); ++c)
-    cells.push_back({&kinds[kind_of[c]], packing.cells()[c].centre, packing.cells()[c].turn});
+    cells.push_back({&kinds[kind_of[c]], packing.cells()[c].centre, packing.cells()[c].rotation});
   return cells;
 }
 
@@ -342,7 +327,7 @@ void RBCCreate::create_atoms(const std::vector<Cell> &cells)
   for (int i = 0; i < atom->nlocal; ++i) molecule = std::max(molecule, atom->molecule[i]);
   MPI_Allreduce(MPI_IN_PLACE, &molecule, 1, MPI_LMP_TAGINT, MPI_MAX, world);
   bigint vertices = 0;
-  for (const Cell &cell : cells) vertices += cell.kind->shape->size();
+  for (const Cell &cell : cells) vertices += cell.kind->shape->vertex_count();
 
   RanPark random(lmp, std::max(seed, 1));
   NewAtoms atoms(lmp, "Rbc/create", vertices);
@@ -350,7 +335,7 @@ void RBCCreate::create_atoms(const std::vector<Cell> &cells)
     ++molecule;
     double velocity[3];
     for (double &component : velocity) component = speed * (2 * random.uniform() - 1);
-    for (int v = 0; v < cell.kind->shape->size(); ++v) {
+    for (int v = 0; v < cell.kind->shape->vertex_count(); ++v) {
       const NewAtoms::Made made = atoms.add(cell.kind->type, cell.vertex(v));
       if (made.index < 0) continue;
       atom->molecule[made.index] = molecule;

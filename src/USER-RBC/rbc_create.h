@@ -32,9 +32,9 @@ class RBCCreate : public Command {
   struct Cell {
     const Kind *kind;
     rbc::Vec3 centre;
-    Eigen::Matrix3d turn;
+    Eigen::Matrix3d rotation;
 
-    rbc::Vec3 vertex(int v) const { return centre + turn * kind->shape->vertices[v]; }
+    rbc::Vec3 vertex(int v) const { return centre + rotation * kind->shape->vertices[v]; }
   };
 
   std::vector<Kind> kinds;    // that of the template first, then those mixed in

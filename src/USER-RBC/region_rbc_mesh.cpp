@@ -143,7 +143,7 @@ void RegionRBCMesh::init()
 
 int RegionRBCMesh::inside(double x, double y, double z)
 {
-  return solid->holds({x, y, z});
+  return solid->contains({x, y, z});
 }
 
 /* ----------------------------------------------------------------------

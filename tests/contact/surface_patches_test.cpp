@@ -10,11 +10,11 @@ namespace {
 /// Lengths of the shortest paths between all vertices (Floyd and Warshall).
 Eigen::MatrixXd paths(const rbc::SurfaceTemplate &surface)
 {
-  const int n = surface.size();
+  const int n = surface.vertex_count();
   Eigen::MatrixXd path = Eigen::MatrixXd::Constant(n, n, HUGE_VAL);
   for (int v = 0; v < n; ++v) {
     path(v, v) = 0;
-    for (int w : surface.neighbours[v])
+    for (int w : surface.neighbors[v])
       path(v, w) = (surface.vertices[w] - surface.vertices[v]).norm();
   }
   for (int by = 0; by < n; ++by)
@@ -49,9 +49,9 @@ TEST(SurfacePatches, OfNoExtentIsTheFan)
   const rbc::SurfaceTemplate sphere(mesh.vertices, mesh.triangles);
   const auto patches = rbc::surface_patches(sphere, 0);
   for (int v = 0; v < sphere.size(); ++v) {
-    auto fan = sphere.fans[v];
-    std::sort(fan.begin(), fan.end());
-    EXPECT_EQ(patches[v], fan);
+    auto incident_corners = sphere.incident_triangles[v];
+    std::sort(incident_corners.begin(), incident_corners.end());
+    EXPECT_EQ(patches[v], incident_corners);
   }
 }
 

@@ -43,15 +43,15 @@ Mesh with(const Mesh &mesh, const Mesh &other, const std::map<int, int> &joint =
 TEST(Template, OctahedronIsAccepted)
 {
   const rbc::SurfaceTemplate shape = octahedron().surface();
-  EXPECT_EQ(shape.size(), 6);
+  EXPECT_EQ(shape.vertex_count(), 6);
   EXPECT_EQ(shape.hinges.size(), 12u);
   EXPECT_NEAR(shape.area, 16 * std::sqrt(3), 1e-13);
   EXPECT_NEAR(shape.volume, 32.0 / 3, 1e-14);
   EXPECT_NEAR(shape.longest_edge, std::sqrt(8), 1e-15);
   EXPECT_NEAR(shape.mean_edge, std::sqrt(8), 1e-14);
   for (int v = 0; v < 6; ++v) {
-    EXPECT_EQ(shape.neighbours[v].size(), 4u);
-    EXPECT_EQ(shape.fans[v].size(), 4u);
+    EXPECT_EQ(shape.neighbors[v].size(), 4u);
+    EXPECT_EQ(shape.incident_triangles[v].size(), 4u);
     // Four edges with normals at acos(1/3), over a third of four faces: l theta / A.
     EXPECT_NEAR(shape.curvature[v], std::sqrt(8) * std::acos(1.0 / 3) / (8 / std::sqrt(3)), 1e-14);
   }
@@ -181,7 +181,7 @@ TEST(Template, SphereHasSecondOrderAreaAndVolume)
     mesh.vertices = transformed(mesh.vertices,
                                 [&](const Vec3 &x) { return Vec3(radius * x + Vec3(5, -2, 1)); });
     const rbc::SurfaceTemplate shape = mesh.surface();
-    ASSERT_EQ(shape.size(), 10 * frequency * frequency + 2);
+    ASSERT_EQ(shape.vertex_count(), 10 * frequency * frequency + 2);
     const std::array<double, 2> error{1 - shape.area / area, 1 - shape.volume / volume};
     for (int i = 0; i < 2; ++i)
       if (frequency > 4) {
@@ -202,7 +202,7 @@ struct SphereCurvature {
     for (Vec3 &x : mesh.vertices) x *= radius;
     const rbc::SurfaceTemplate shape = mesh.surface();
     const std::vector<double> areas = vertex_areas(shape);
-    for (int v = 0; v < shape.size(); ++v) {
+    for (int v = 0; v < shape.vertex_count(); ++v) {
       integral += areas[v] * shape.curvature[v];
       error = std::max(error, std::abs(radius * shape.curvature[v] - 1));
     }
@@ -301,8 +301,8 @@ TEST(Template, CurvatureOfTheDiscIsOfSecondOrderAlmostEverywhere)
     const rbc::SurfaceTemplate shape = mesh.surface();
     const std::vector<double> areas = vertex_areas(shape);
     double error = 0;
-    for (int v = 0; v < shape.size(); ++v) {
-      if (shape.neighbours[v].size() == 5) continue;
+    for (int v = 0; v < shape.vertex_count(); ++v) {
+      if (shape.neighbors[v].size() == 5) continue;
       const double angle = std::asin(std::min(1.0, shape.vertices[v].head<2>().norm()));
       error += areas[v] * std::pow(shape.curvature[v] - SmoothDisc().curvature(angle).mean, 2);
     }

@@ -81,7 +81,7 @@ inline Mesh icosphere(int frequency)
     for (int b = a + 1; b < 12; ++b)
       for (int c = b + 1; c < 12; ++c) {
         const Vec3 &p = corner[a], &q = corner[b], &r = corner[c];
-        // The cosine of neighbours is 0.447, of others negative.
+        // The cosine of neighbors is 0.447, of others negative.
         if (std::min({p.dot(q), q.dot(r), r.dot(p)}) < 0.4) continue;
         const bool outward = p.dot(q.cross(r)) > 0;
         const auto vertex = [&](int i, int j) {
@@ -186,7 +186,7 @@ inline Mesh cuboid(const Vec3 &size, int n)
 /// By the corners' shares of the stress-free triangles.
 inline std::vector<double> vertex_areas(const rbc::SurfaceTemplate &shape)
 {
-  std::vector<double> areas(shape.size());
+  std::vector<double> areas(shape.vertex_count());
   for (std::size_t t = 0; t < shape.triangles.size(); ++t)
     for (int c = 0; c < 3; ++c)
       areas[shape.triangles[t][c]] += shape.corner_share[c][t] * shape.reference[t].area;

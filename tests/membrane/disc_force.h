@@ -20,11 +20,11 @@ struct DiscForceError {
     const std::vector<double> areas = vertex_areas(shape);
     const Result result = evaluate(shape, parameters, mesh.vertices);
 
-    std::vector<char> excluded(shape.size());
-    for (int v = 0; v < shape.size(); ++v) {
-      if (shape.neighbours[v].size() != 5) continue;
-      for (int w : shape.neighbours[v])
-        for (int u : shape.neighbours[w]) excluded[u] = excluded[w] = 1;
+    std::vector<char> excluded(shape.vertex_count());
+    for (int v = 0; v < shape.vertex_count(); ++v) {
+      if (shape.neighbors[v].size() != 5) continue;
+      for (int w : shape.neighbors[v])
+        for (int u : shape.neighbors[w]) excluded[u] = excluded[w] = 1;
     }
 
     struct Band {
@@ -33,7 +33,7 @@ struct DiscForceError {
     std::array<Band, 16> band;
     std::vector<double> errors;
     double total_area = 0;
-    for (int v = 0; v < shape.size(); ++v) {
+    for (int v = 0; v < shape.vertex_count(); ++v) {
       const double angle = std::asin(std::min(1.0, mesh.vertices[v].head<2>().norm()));
       const double expected = SmoothDisc{profile}.bending_force(angle);
       const double force = result.force[v].dot(result.volume_gradient[v].normalized());

@@ -76,12 +76,12 @@ TEST_P(Parts, GiveTheForcesAndSumToTheEnergiesOfTheWhole)
   const rbc::SurfaceTemplate shape = disc(4).surface();
   const Vertices x = waved(shape.vertices, 4);
   const Result whole = evaluate(shape, parameters, x);
-  const double scale = total_norm(whole.force) / shape.size();
+  const double scale = total_norm(whole.force) / shape.vertex_count();
   rbc::MembraneModel model(shape, parameters);    // the same for all parts, in turn
   const double unknown = std::numeric_limits<double>::quiet_NaN();
 
   for (const Owners &owners : splits(x)) {
-    rbc::CellSize size;
+    rbc::AreaVolume size;
     rbc::MembraneEnergy energy;
     for (int owner = 0; owner < count(owners); ++owner) {
       const bool bends = parameters.bending > 0;
@@ -89,13 +89,13 @@ TEST_P(Parts, GiveTheForcesAndSumToTheEnergiesOfTheWhole)
       // Positions further away than two edges, one without bending, are not there to be read.
       const std::vector<char> known = around(shape, elements.owned, bends ? 2 : 1);
       Vertices near = x;
-      for (int v = 0; v < shape.size(); ++v)
+      for (int v = 0; v < shape.vertex_count(); ++v)
         if (!known[v]) near[v].fill(unknown);
       Vertices force(x.size()), gradient(x.size());
       for (int t : elements.triangles)
         for (int v : shape.triangles[t]) ASSERT_TRUE(known[v]);
       model.set_cell(elements, near);
-      const rbc::CellSize share = model.size();
+      const rbc::AreaVolume share = model.size();
       model.volume_gradient(gradient.data());
       const rbc::MembraneEnergy part = model.forces(whole.size, force);
       size.area += share.area;
@@ -104,7 +104,7 @@ TEST_P(Parts, GiveTheForcesAndSumToTheEnergiesOfTheWhole)
       energy.bending += part.bending;
       energy.area += part.area;
       energy.volume += part.volume;
-      for (int v = 0; v < shape.size(); ++v) {
+      for (int v = 0; v < shape.vertex_count(); ++v) {
         if (!elements.owned[v]) continue;
         ASSERT_TRUE((force[v] - whole.force[v]).norm() < 1e-12 * scale);
         ASSERT_TRUE((gradient[v] - whole.volume_gradient[v]).norm() < 1e-15);
@@ -133,7 +133,7 @@ TEST(Measure, VolumeGradientIsThatOfTheVolume)
   };
   volume();
   model.volume_gradient(gradient.data());
-  for (int v = 0; v < shape.size(); ++v)
+  for (int v = 0; v < shape.vertex_count(); ++v)
     for (int d = 0; d < 3; ++d) {
       // The volume is linear in each coordinate.
       const double at = x[v][d];

@@ -129,7 +129,7 @@ double meridional_tension(int frequency, const rbc::SheetLaw &law, double l1, do
   parameters.law = law;
   const Vertices force = evaluate(shape, parameters, x).force;
   double work = 0;
-  for (int v = 0; v < shape.size(); ++v) work -= force[v].dot(change[v]);
+  for (int v = 0; v < shape.vertex_count(); ++v) work -= force[v].dot(change[v]);
   return work / (l2 * 4 * pi * integral(share, end));
 }
 
@@ -199,7 +199,7 @@ double flat_tension(const rbc::SheetLaw &law, double l1, double l2)
       shape.vertices, [&](const Vec3 &v) { return v.cwiseProduct(Vec3(l1, l2, 1)).eval(); });
   const Vertices force = evaluate(shape, parameters, x).force;
   double work = 0;
-  for (int v = 0; v < shape.size(); ++v) work -= force[v][0] * shape.vertices[v][0];
+  for (int v = 0; v < shape.vertex_count(); ++v) work -= force[v][0] * shape.vertices[v][0];
   return work / (2 * l2);
 }
 

@@ -81,7 +81,7 @@ constexpr double c0 = -0.7;
 
 Number helfrich_energy(const rbc::SurfaceTemplate &shape, const std::vector<Vector> &x)
 {
-  std::vector<Number> area(shape.size()), integral(shape.size());
+  std::vector<Number> area(shape.vertex_count()), integral(shape.vertex_count());
   for (std::size_t t = 0; t < shape.triangles.size(); ++t) {
     const auto &[i, j, k] = shape.triangles[t];
     const Number of_triangle = 0.5 * norm(cross(x[j] - x[i], x[k] - x[i]));
@@ -93,7 +93,7 @@ Number helfrich_energy(const rbc::SurfaceTemplate &shape, const std::vector<Vect
     for (int v : {hinge.a, hinge.b})
       integral[v] = integral[v] + 0.25 * norm(x[hinge.b] - x[hinge.a]) * turn(hinge, x);
   Number energy;
-  for (int v = 0; v < shape.size(); ++v) {
+  for (int v = 0; v < shape.vertex_count(); ++v) {
     const Number excess = integral[v] / area[v] - c0 / 2;
     energy = energy + 2 * excess * excess * area[v];
   }

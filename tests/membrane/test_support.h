@@ -8,7 +8,7 @@ namespace test {
 // ---- a model and what it gives for a whole cell
 
 struct Result {
-  rbc::CellSize size;
+  rbc::AreaVolume size;
   rbc::MembraneEnergy energy;
   Vertices force, volume_gradient;
 };

@@ -12,7 +12,8 @@ using test::Vertices;
 
 struct Sphere {
   explicit Sphere(int frequency) :
-      shape(test::icosphere(frequency).surface()), all(CellElements::whole(shape)), f(shape.size())
+      shape(test::icosphere(frequency).surface()), all(CellElements::whole(shape)),
+      f(shape.vertex_count())
   {
   }
 
@@ -61,7 +62,7 @@ TEST(MembraneViscosity, ForcesDoMinusThePowerAndSumToZero)
   const double power = sphere.power(2, gradient);
   double work = 0, size = 0;
   rbc::Vec3 sum = rbc::Vec3::Zero(), torque = rbc::Vec3::Zero();
-  for (int i = 0; i < sphere.shape.size(); ++i) {
+  for (int i = 0; i < sphere.shape.vertex_count(); ++i) {
     work += sphere.f[i].dot(sphere.v[i]);
     sum += sphere.f[i];
     torque += sphere.shape.vertices[i].cross(sphere.f[i]);
@@ -84,7 +85,7 @@ TEST(MembraneViscosity, IsSymmetric)
   const Vertices force = sphere.f, velocity = sphere.v;
   sphere.power(1, two);
   double there = 0, back = 0;
-  for (int i = 0; i < sphere.shape.size(); ++i) {
+  for (int i = 0; i < sphere.shape.vertex_count(); ++i) {
     there += force[i].dot(sphere.v[i]);
     back += sphere.f[i].dot(velocity[i]);
   }
@@ -101,11 +102,11 @@ TEST(MembraneViscosity, OfPartsIsThatOfTheWhole)
   const Vertices force = sphere.f;
   double sum = 0;
   for (int side : {0, 1}) {
-    std::vector<char> owned(sphere.shape.size());
-    for (int i = 0; i < sphere.shape.size(); ++i) owned[i] = i % 2 == side;
+    std::vector<char> owned(sphere.shape.vertex_count());
+    for (int i = 0; i < sphere.shape.vertex_count(); ++i) owned[i] = i % 2 == side;
     const CellElements part = CellElements::part(sphere.shape, owned, false);
     sum += rbc::viscous_forces(sphere.shape, 1, part, sphere.shape.vertices, sphere.v, sphere.f);
-    for (int i = 0; i < sphere.shape.size(); ++i) {
+    for (int i = 0; i < sphere.shape.vertex_count(); ++i) {
       if (owned[i]) {
         EXPECT_LT((sphere.f[i] - force[i]).norm(), 1e-14);
       }
@@ -125,23 +126,23 @@ double cross_law(double shear)
 
 /// A rectangle of 2 by 1.5 in the plane of x and y: the upper face of a cuboid.
 struct FlatSheet {
-  FlatSheet() : shape(test::cuboid({2, 1.5, 1}, 3).surface()), f(shape.size())
+  FlatSheet() : shape(test::cuboid({2, 1.5, 1}, 3).surface()), f(shape.vertex_count())
   {
-    face.owned.assign(shape.size(), 1);
+    face.owned.assign(shape.vertex_count(), 1);
     for (int t = 0; t < static_cast<int>(shape.triangles.size()); ++t) {
       const auto &corners = shape.triangles[t];
       if (std::all_of(corners.begin(), corners.end(),
                       [&](int i) { return std::abs(height(i) - top()) < 1e-12; }))
         face.triangles.push_back(t);
     }
-    face.loaded = static_cast<int>(face.triangles.size());
+    face.owned_triangles = static_cast<int>(face.triangles.size());
   }
 
   double height(int i) const { return shape.vertices[i][2]; }
   double top() const
   {
     double highest = height(0);
-    for (int i = 1; i < shape.size(); ++i) highest = std::max(highest, height(i));
+    for (int i = 1; i < shape.vertex_count(); ++i) highest = std::max(highest, height(i));
     return highest;
   }
 
@@ -158,7 +159,7 @@ struct FlatSheet {
     double side = shape.vertices[0][0];
     for (const rbc::Vec3 &x : shape.vertices) side = std::max(side, x[0]);
     rbc::Vec3 sum = rbc::Vec3::Zero();
-    for (int i = 0; i < shape.size(); ++i)
+    for (int i = 0; i < shape.vertex_count(); ++i)
       if (std::abs(shape.vertices[i][0] - side) < 1e-12) sum -= f[i];
     return sum / 1.5;
   }
@@ -172,7 +173,7 @@ struct FlatSheet {
 TEST(ThinningViscosity, OfAFlatSheetFollowsTheLaw)
 {
   FlatSheet sheet;
-  ASSERT_EQ(sheet.face.loaded, 18);
+  ASSERT_EQ(sheet.face.owned_triangles, 18);
   for (double rate : {0.01, 1.0, 30.0}) {
     Matrix3 simple_shear = Matrix3::Zero();
     simple_shear(0, 1) = rate;

@@ -239,7 +239,7 @@ TEST(CellApproach, EdgesThatCrossAreSeen)
                                  Eigen::AngleAxisd(pi / 4, Vec3::UnitY()).toRotationMatrix());
   const rbc::CellApproach approach(upper, lower, 0.4);
   ASSERT_FALSE(approach.empty());
-  rbc::Push push;
+  rbc::Wrench push;
   approach.push(upper, lower, 0.05, push);
   // the edge is 0.1 below that of the other: 0.1 / sqrt 2 from its faces
   EXPECT_NEAR(push.overlap, 0.05 + 0.1 / root, shape.field.spacing());
@@ -267,7 +267,7 @@ TEST(Fire, ComesToRestInAQuadraticWell)
 
 class Ball : public rbc::Enclosure {
  public:
-  bool holds(const Vec3 &x) const override { return x.norm() <= radius; }
+  bool contains(const Vec3 &x) const override { return x.norm() <= radius; }
   Vec3 inward(const Vec3 &x, double) const override { return -x.normalized(); }
 
   double radius = 2.2;
@@ -324,8 +324,8 @@ void expect_packed(const PackingBox &box, const rbc::CellPacking &packing, doubl
   EXPECT_GE(packing.least_gap(), gap);
   EXPECT_LE(packing.least_gap(), least + 1e-12);
   for (const RigidCell &cell : packing.cells()) {
-    EXPECT_LT((cell.turn.transpose() * cell.turn - Matrix3::Identity()).norm(), 1e-12);
-    for (int v = 0; v < cell.shape->surface.size(); ++v)
+    EXPECT_LT((cell.rotation.transpose() * cell.rotation - Matrix3::Identity()).norm(), 1e-12);
+    for (int v = 0; v < cell.shape->surface.vertex_count(); ++v)
       EXPECT_GE(box.clearance(cell.vertex(v)), gap / 2);
   }
 }
@@ -377,8 +377,8 @@ TEST(CellPacking, TwoKindsInABallKeepClearOfPoints)
   ASSERT_TRUE(packing.pack(5000));
   EXPECT_GE(least_gap(box, packing.cells()), gap);
   for (const RigidCell &packed : packing.cells()) {
-    for (int v = 0; v < packed.shape->surface.size(); ++v)
-      EXPECT_TRUE(ball.holds(packed.vertex(v)));
+    for (int v = 0; v < packed.shape->surface.vertex_count(); ++v)
+      EXPECT_TRUE(ball.contains(packed.vertex(v)));
     for (const Vec3 &point : points) EXPECT_GE(surface_gap(point, packed, 1), gap);
   }
 }

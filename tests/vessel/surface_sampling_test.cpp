@@ -17,7 +17,7 @@ class Shape : public Enclosure {
   using Function = std::function<double(const Vec3 &)>;
   explicit Shape(Function function) : function_(std::move(function)) {}
 
-  bool holds(const Vec3 &x) const override { return function_(x) <= 0; }
+  bool contains(const Vec3 &x) const override { return function_(x) <= 0; }
   Vec3 inward(const Vec3 &x, double) const override
   {
     constexpr double h = 1e-5;
@@ -60,7 +60,7 @@ struct Case {
   Shape::Function function;
   double area;
   double mean,
-      least;    ///< distance of neighbours in spacings, at least; an edge disturbs the lattice
+      least;    ///< distance of neighbors in spacings, at least; an edge disturbs the lattice
 };
 
 std::vector<Case> cases()

@@ -45,7 +45,7 @@ TEST(TriangulatedSolid, SideAndDistanceAreThoseOfAllTriangles)
   for (int n = 0; n < 4000; ++n) {
     const Vec3 x = random.vector(-4, 4);
     const bool in = winding(x, triangles) > 0.5;
-    ASSERT_EQ(solid.holds(x), in) << x.transpose();
+    ASSERT_EQ(solid.contains(x), in) << x.transpose();
     inside += in;
     const double distance = (x - closest(x, triangles)).norm();
     for (const double cutoff : {0.3, 10.0}) {
@@ -89,7 +89,7 @@ TEST(TriangulatedSolid, TubeGoesOnThroughPeriodicFaces)
       if (n % 4 == 0) x[0] = n % 8 == 0 ? -2 : 5;
       if (n % 4 == 1) x[0] += 7 * random.below(4) - 14;
       const double distance = test::prism_distance(sides, 2, x[1] - 0.3, x[2] + 0.2);
-      ASSERT_EQ(tube.holds(x), distance <= 0) << x.transpose();
+      ASSERT_EQ(tube.contains(x), distance <= 0) << x.transpose();
       if (distance > 0) continue;
       const auto nearest = tube.nearest(x, 3);
       ASSERT_TRUE(nearest);
@@ -109,7 +109,7 @@ TEST(TriangulatedSolid, IsTheSameTurnedInsideOut)
   test::Random random(4);
   for (int n = 0; n < 1000; ++n) {
     const Vec3 x = random.vector(-4, 4);
-    ASSERT_EQ(turned.holds(x), solid.holds(x));
+    ASSERT_EQ(turned.contains(x), solid.contains(x));
     ASSERT_NEAR(turned.nearest(x, 10)->distance, solid.nearest(x, 10)->distance, 1e-12);
   }
 }

@@ -32,9 +32,9 @@ CellMembranes::CellMembranes(LAMMPS *lmp, std::string style, int groupbit,
     own_stop_(std::make_shared<CollectiveStop>(lmp)), stop_(own_stop_)
 {
   model_.set_rest_volume(settings_.swelling.now() * shape().volume);
-  x_.resize(shape().size());
-  f_.resize(shape().size());
-  if (is_viscous()) v_.resize(shape().size());
+  x_.resize(shape().vertex_count());
+  f_.resize(shape().vertex_count());
+  if (is_viscous()) v_.resize(shape().vertex_count());
 }
 
 /* ---------------------------------------------------------------------- */
@@ -63,8 +63,8 @@ void CellMembranes::update_ownership()
   const std::size_t count = cells_.cells().size();
   sizes_.resize(2 * count);
   volume_rates_.resize(count);
-  volume_gradient_.resize(keeps_volume() ? count * shape().size() : 0);
-  linear_at_.resize(is_thinning() ? count * shape().size() : 0);
+  volume_gradient_.resize(keeps_volume() ? count * shape().vertex_count() : 0);
+  linear_at_.resize(is_thinning() ? count * shape().vertex_count() : 0);
 }
 
 /* ----------------------------------------------------------------------
@@ -124,7 +124,7 @@ void CellMembranes::set_current_cell(const LocalCells::Cell &cell)
 
 void CellMembranes::store_size(std::size_t c)
 {
-  const rbc::CellSize share = model_.size();
+  const rbc::AreaVolume share = model_.size();
   sizes_[2 * c] = share.area;
   sizes_[2 * c + 1] = share.volume;
 }
@@ -151,7 +151,7 @@ void CellMembranes::check(const LocalCells::Cell &cell, double volume)
 
 /* ---------------------------------------------------------------------- */
 
-void CellMembranes::add_elastic_forces(const LocalCells::Cell &cell, const rbc::CellSize &size)
+void CellMembranes::add_elastic_forces(const LocalCells::Cell &cell, const rbc::AreaVolume &size)
 {
   const rbc::MembraneEnergy share = model_.forces(size, f_);
   if (!std::isfinite(share.total())) report(cell, "the energy of the membrane is not a number");
@@ -165,7 +165,7 @@ void CellMembranes::add_elastic_forces(const LocalCells::Cell &cell, const rbc::
 void CellMembranes::add_to_atoms(const LocalCells::Cell &cell, bool with_virial)
 {
   double **const force = atom->f;
-  const int size = shape().size();
+  const int size = shape().vertex_count();
   for (int i = 0; i < size; ++i) {
     if (!cell.elements->owned[i]) continue;
     double *const at = force[cell.atom[i]];
@@ -236,7 +236,7 @@ void CellMembranes::add_viscous_change()
     rbc::viscous_forces_change(shape(), settings_.viscosity, *cell.elements, x_, at,
                                viscosity_frozen_, v_, f_);
     add_to_atoms(cell, false);
-    at += shape().size();
+    at += shape().vertex_count();
   }
   stopwatch_.stop();
 }
@@ -250,7 +250,7 @@ void CellMembranes::share_velocities()
 
 void CellMembranes::gather_velocities(const LocalCells::Cell &cell)
 {
-  for (int i = 0; i < shape().size(); ++i)
+  for (int i = 0; i < shape().vertex_count(); ++i)
     if (cell.atom[i] >= 0) v_[i] = Vec3(atom->v[cell.atom[i]]);
 }
 
@@ -286,7 +286,7 @@ void CellMembranes::constrain_volume(double dt, bool new_step, bool mid_step)
   find_volume_sums();
 
   double **const v = atom->v;
-  const int size = shape().size();
+  const int size = shape().vertex_count();
   const auto &local = cells_.cells();
   for (std::size_t c = 0; c < local.size(); ++c) {
     const LocalCells::Cell &cell = local[c];
@@ -310,7 +310,7 @@ void CellMembranes::constrain_volume(double dt, bool new_step, bool mid_step)
 void CellMembranes::find_volume_sums()
 {
   double **const v = atom->v;
-  const int size = shape().size();
+  const int size = shape().vertex_count();
   const auto &local = cells_.cells();
   sums_.assign(3 * local.size(), 0.0);
   for (std::size_t c = 0; c < local.size(); ++c) {
@@ -343,7 +343,7 @@ void CellMembranes::report(const LocalCells::Cell &cell, const std::string &what
 
 double CellMembranes::bytes() const
 {
-  const double vertices = static_cast<double>(cells_.cells().size()) * shape().size();
+  const double vertices = static_cast<double>(cells_.cells().size()) * shape().vertex_count();
   return vertices * (sizeof(int) + sizeof(Vec3)) +
          (volume_gradient_.size() + linear_at_.size()) * sizeof(Vec3);
 }

@@ -117,7 +117,7 @@ class CellMembranes : public StepPart, protected Pointers {
   void store_size(std::size_t c);
   void measure_shared_cells();
   void check(const LocalCells::Cell &cell, double volume);
-  void add_elastic_forces(const LocalCells::Cell &cell, const rbc::CellSize &size);
+  void add_elastic_forces(const LocalCells::Cell &cell, const rbc::AreaVolume &size);
   void gather_velocities(const LocalCells::Cell &cell);
   void share_velocities();
   double viscous_forces(const LocalCells::Cell &cell);

@@ -4,6 +4,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "support/rbc_gather.h"
 #include "update.h"
 
 #include <algorithm>
@@ -210,7 +211,7 @@ void LocalCells::find_neighbours(std::size_t at, tagint first, const std::vector
   for (int ring = 0; ring < rings; ++ring) {
     std::vector<int> next;
     for (int v : front)
-      for (int w : shape.neighbours[v]) {
+      for (int w : shape.neighbors[v]) {
         if (atoms[at + w] >= 0) continue;
         const int j = atom->map(first + w);
         if (j < 0) continue;
@@ -254,13 +255,7 @@ void LocalCells::find_shared(const std::vector<char> &is_part)
   for (std::size_t c = 0; c < local.size(); ++c)
     if (is_part[c]) mine.push_back(local[c].index);
 
-  const int count = static_cast<int>(mine.size());
-  std::vector<int> counts(comm->nprocs), begins(comm->nprocs);
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
-  for (int r = 1; r < comm->nprocs; ++r) begins[r] = begins[r - 1] + counts[r - 1];
-  shared.resize(begins.back() + counts.back());
-  MPI_Allgatherv(mine.data(), count, MPI_INT, shared.data(), counts.data(), begins.data(), MPI_INT,
-                 world);
+  shared = gather_all(mine, world);
   std::sort(shared.begin(), shared.end());
   shared.erase(std::unique(shared.begin(), shared.end()), shared.end());
   for (std::size_t c = 0; c < local.size(); ++c)

@@ -35,10 +35,10 @@ void NearSurfaces::init()
   for (CellMembranes *membranes : all_cell_membranes(lmp)) {
     membranes->local_cells().identify();    // the fix itself is initialised later
     const rbc::SurfaceTemplate &surface = membranes->shape();
-    std::vector<std::vector<int>> led(surface.size());
+    std::vector<std::vector<int>> triangles_by_first_vertex(surface.vertex_count());
     for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-      led[surface.triangles[t][0]].push_back(static_cast<int>(t));
-    shapes.push_back({&surface, std::move(led), {}});
+      triangles_by_first_vertex[surface.triangles[t][0]].push_back(static_cast<int>(t));
+    shapes.push_back({&surface, std::move(triangles_by_first_vertex), {}});
     if (own_patch > 0) shapes.back().patches = own_patches(surface);
 
     const auto &molecules = membranes->local_cells().molecules();
@@ -85,7 +85,7 @@ const NearSurfaces::Cell *NearSurfaces::cell_of(int i) const
     return nullptr;
   const Cell &cell = cells[molecule];
   const tagint vertex = atom->tag[i] - cell.first;    // others may have the same molecule ID
-  return vertex >= 0 && vertex < shapes[cell.shape].surface->size() ? &cell : nullptr;
+  return vertex >= 0 && vertex < shapes[cell.shape].surface->vertex_count() ? &cell : nullptr;
 }
 
 const NearSurfaces::Shape *NearSurfaces::shape_of(int i) const
@@ -152,7 +152,7 @@ void NearSurfaces::collect_triangles(double longest)
     const Cell *const cell = cell_of(i);
     if (!cell) continue;
     const Shape &shape = shapes[cell->shape];
-    for (int t : shape.led[atom->tag[i] - cell->first]) {
+    for (int t : shape.triangles_by_first_vertex[atom->tag[i] - cell->first]) {
       const auto &corners = shape.surface->triangles[t];
       const int j = image_near(i, cell->first + corners[1], longest);
       const int k = image_near(i, cell->first + corners[2], longest);

@@ -19,7 +19,7 @@ class NearSurfaces : protected Pointers {
  public:
   /// A vertex and the closest point of a surface that it sees. Points and corners are local indices of atoms; corners
   /// may be ghosts.
-  using Contact = rbc::NearTriangles::Contact;
+  using Contact = rbc::VertexContact;
 
   NearSurfaces(LAMMPS *lmp, std::string style);
 
@@ -61,7 +61,8 @@ class NearSurfaces : protected Pointers {
   };
   struct Shape {
     const rbc::SurfaceTemplate *surface;
-    std::vector<std::vector<int>> led;    ///< triangles of which a vertex is the first corner
+    std::vector<std::vector<int>>
+        triangles_by_first_vertex;    ///< triangles of which a vertex is the first corner
     std::vector<std::vector<int>>
         patches;    ///< triangles that a vertex does not see, if it sees its own cell
   };

@@ -17,7 +17,7 @@ Vec3 RegionEnclosure::wrapped(Vec3 x) const
   return x;
 }
 
-bool RegionEnclosure::within(const Vec3 &x) const
+bool RegionEnclosure::region_contains(const Vec3 &x) const
 {
   return region_->match(x[0], x[1], x[2]);
 }
@@ -36,10 +36,10 @@ int RegionEnclosure::contacts_outside(const Vec3 &x, double distance) const
 
 /* ---------------------------------------------------------------------- */
 
-bool RegionEnclosure::holds(const Vec3 &x) const
+bool RegionEnclosure::contains(const Vec3 &x) const
 {
   const Vec3 y = wrapped(x);
-  if (within(y)) return offset_ >= 0 || region_->surface(y[0], y[1], y[2], -offset_) == 0;
+  if (region_contains(y)) return offset_ >= 0 || region_->surface(y[0], y[1], y[2], -offset_) == 0;
   return offset_ > 0 && contacts_outside(y, offset_) > 0;
 }
 
@@ -50,7 +50,7 @@ bool RegionEnclosure::holds(const Vec3 &x) const
 Vec3 RegionEnclosure::inward(const Vec3 &x, double distance) const
 {
   const Vec3 y = wrapped(x);
-  const bool in = within(y);
+  const bool in = region_contains(y);
   const double reach = std::abs(offset_) + distance;
   const int count = in ? region_->surface(y[0], y[1], y[2], reach) : contacts_outside(y, reach);
   double nearest = HUGE_VAL;

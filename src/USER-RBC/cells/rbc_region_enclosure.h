@@ -14,7 +14,7 @@ class RegionEnclosure : public rbc::Enclosure {
   {
   }
 
-  bool holds(const rbc::Vec3 &x) const override;
+  bool contains(const rbc::Vec3 &x) const override;
   rbc::Vec3 inward(const rbc::Vec3 &x, double distance) const override;
 
  private:
@@ -23,7 +23,7 @@ class RegionEnclosure : public rbc::Enclosure {
   double offset_;
 
   rbc::Vec3 wrapped(rbc::Vec3 x) const;
-  bool within(const rbc::Vec3 &x) const;
+  bool region_contains(const rbc::Vec3 &x) const;
   int contacts_outside(const rbc::Vec3 &x, double distance) const;
 };
 

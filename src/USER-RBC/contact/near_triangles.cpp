@@ -65,7 +65,7 @@ void NearTriangles::build(int points, const Surface *surfaces, int corners, cons
   reach_ = range + slack;
   slack_ = slack;
   travel_ = travel;
-  build_fans(corners);
+  find_incident(corners);
   corners_ = corners;
   rebuild(x);
 }
@@ -232,16 +232,16 @@ void NearTriangles::add_candidates(const double *x, int point)
   }
 }
 
-void NearTriangles::build_fans(int corners)
+void NearTriangles::find_incident(int corners)
 {
-  fan_begin_.assign(corners + 1, 0);
+  incident_begin_.assign(corners + 1, 0);
   for (const Triangle &triangle : triangles_)
-    for (int v : triangle.corner) ++fan_begin_[v + 1];
-  for (int v = 0; v < corners; ++v) fan_begin_[v + 1] += fan_begin_[v];
-  fans_.resize(fan_begin_[corners]);
-  next_.assign(fan_begin_.begin(), fan_begin_.end() - 1);
+    for (int v : triangle.corner) ++incident_begin_[v + 1];
+  for (int v = 0; v < corners; ++v) incident_begin_[v + 1] += incident_begin_[v];
+  incident_.resize(incident_begin_[corners]);
+  next_.assign(incident_begin_.begin(), incident_begin_.end() - 1);
   for (std::size_t t = 0; t < triangles_.size(); ++t)
-    for (int v : triangles_[t].corner) fans_[next_[v]++] = static_cast<int>(t);
+    for (int v : triangles_[t].corner) incident_[next_[v]++] = static_cast<int>(t);
 }
 
 /* ----------------------------------------------------------------------
@@ -258,7 +258,7 @@ double NearTriangles::largest_approach(const double *x)
    no triangle can be nearer than it was less what it and the point came nearer to each other
 ------------------------------------------------------------------------- */
 
-const std::vector<NearTriangles::Contact> &NearTriangles::contacts(const double *x, double range)
+const std::vector<VertexContact> &NearTriangles::contacts(const double *x, double range)
 {
   if (largest_approach(x) > slack_) rebuild(x);
   contacts_.clear();
@@ -314,8 +314,8 @@ PlainVector NearTriangles::outward(const double *x, const std::array<int, 3> &co
   if (count == 3) return face;
 
   PlainVector sum{0, 0, 0};
-  for (int f = fan_begin_[on[0]]; f < fan_begin_[on[0] + 1]; ++f) {
-    const auto &v = triangles_[fans_[f]].corner;
+  for (int f = incident_begin_[on[0]]; f < incident_begin_[on[0] + 1]; ++f) {
+    const auto &v = triangles_[incident_[f]].corner;
     const int place = v[0] == on[0] ? 0 : v[1] == on[0] ? 1 : 2;
     const int next = v[(place + 1) % 3], last = v[(place + 2) % 3];
     if (count == 2 && next != on[1] && last != on[1]) continue;
@@ -331,7 +331,7 @@ PlainVector NearTriangles::outward(const double *x, const std::array<int, 3> &co
 std::size_t NearTriangles::bytes() const
 {
   std::size_t integers = 0;
-  for (const auto *numbers : {&fan_begin_, &fans_, &bin_begin_, &bin_of_, &next_, &hits_})
+  for (const auto *numbers : {&incident_begin_, &incident_, &bin_begin_, &bin_of_, &next_, &hits_})
     integers += numbers->capacity();
   return integers * sizeof(int) +
          (in_bin_.capacity() + around_bin_.capacity() + scratch_.capacity()) *
@@ -341,7 +341,7 @@ std::size_t NearTriangles::bytes() const
          bounds_.capacity() *
              (sizeof(Sphere) + 4 * sizeof(double) + sizeof(Surface) + sizeof(int)) +
          groups_.capacity() * sizeof(Group) + candidates_.capacity() * sizeof(Candidate) +
-         contacts_.capacity() * sizeof(Contact);
+         contacts_.capacity() * sizeof(VertexContact);
 }
 
 }    // namespace rbc

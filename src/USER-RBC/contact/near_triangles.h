@@ -13,6 +13,15 @@ namespace rbc {
 
 class SpatialBins;
 
+/// A point near a surface and the place of the surface that is closest to it.
+struct VertexContact {
+  int point;
+  std::array<int, 3> corner;       ///< of the triangle closest to the point
+  std::array<double, 3> weight;    ///< of the corners at the closest place
+  PlainVector normal;    ///< of unit length, outward, along the line from that place to the point
+  double gap;            ///< distance, negative inside the surface
+};
+
 /// Finds for points the closest point on each closed triangulated surface near them. Surfaces have numbers; a point
 /// belongs to one and does not see it, or only some of its triangles. Triangles may be a part of a surface, as long as
 /// those that share a corner with one in reach are there. Positions are three numbers for each point, of points and
@@ -31,15 +40,6 @@ class NearTriangles {
     Surface surface;
   };
 
-  /// A point near a surface.
-  struct Contact {
-    int point;
-    std::array<int, 3> corner;       ///< of the triangle closest to it
-    std::array<double, 3> weight;    ///< of the corners at the closest point
-    PlainVector normal;    ///< there, of unit length, outward, along the line to the point
-    double gap;            ///< distance, negative inside
-  };
-
   /// Finds what comes within `range` of each other before anything has moved by travel / 2; where neighbors have come
   /// nearer by more than `slack` contacts() finds it anew. `surfaces[n]` is that of point n < points <= corners; triangles
   /// have their corners among the `corners` first positions. Without `sees_own` points see nothing of their own surface.
@@ -55,7 +55,7 @@ class NearTriangles {
   double largest_approach(const double *x);
 
   /// All points nearer than range to a surface: one contact for each such surface. Rebuilds if it must.
-  const std::vector<Contact> &contacts(const double *x, double range);
+  const std::vector<VertexContact> &contacts(const double *x, double range);
 
   std::size_t bytes() const;
 
@@ -96,7 +96,7 @@ class NearTriangles {
   std::vector<Surface> surfaces_;    // of points
   std::vector<Triangle> triangles_;
   SeesOwn sees_own_;
-  std::vector<int> fan_begin_, fans_;    // triangles around each corner
+  std::vector<int> incident_begin_, incident_;    // triangles around each corner
   RelativeMotion motion_;
   int corners_ = 0;
   std::vector<Sphere> bounds_;    // of each triangle
@@ -106,9 +106,9 @@ class NearTriangles {
   int hit_count_ = 0;
   std::vector<Group> groups_;
   std::vector<Candidate> candidates_;
-  std::vector<Contact> contacts_;
+  std::vector<VertexContact> contacts_;
 
-  void build_fans(int corners);
+  void find_incident(int corners);
   double bound_triangles(const double *x);
   void sort_spheres(const SpatialBins &bins);
   void find_surface_ranges(const SpatialBins &bins);

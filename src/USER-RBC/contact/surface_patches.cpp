@@ -11,13 +11,13 @@ namespace rbc {
 std::vector<std::vector<int>> surface_patches(const SurfaceTemplate &surface, double distance)
 {
   constexpr double far = std::numeric_limits<double>::max();
-  std::vector<std::vector<int>> patches(surface.size());
-  std::vector<double> path(surface.size(), far);
+  std::vector<std::vector<int>> patches(surface.vertex_count());
+  std::vector<double> path(surface.vertex_count(), far);
   std::vector<int> reached;
   using Step = std::pair<double, int>;
   std::priority_queue<Step, std::vector<Step>, std::greater<>> next;
 
-  for (int start = 0; start < surface.size(); ++start) {
+  for (int start = 0; start < surface.vertex_count(); ++start) {
     path[start] = 0;
     next.emplace(0, start);
     while (!next.empty()) {    // Dijkstra's algorithm
@@ -25,7 +25,7 @@ std::vector<std::vector<int>> surface_patches(const SurfaceTemplate &surface, do
       next.pop();
       if (length > path[v]) continue;
       reached.push_back(v);
-      for (int w : surface.neighbours[v]) {
+      for (int w : surface.neighbors[v]) {
         const double longer = length + (surface.vertices[w] - surface.vertices[v]).norm();
         if (longer > distance || longer >= path[w]) continue;
         path[w] = longer;
@@ -34,7 +34,8 @@ std::vector<std::vector<int>> surface_patches(const SurfaceTemplate &surface, do
     }
     auto &patch = patches[start];
     for (int v : reached) {
-      patch.insert(patch.end(), surface.fans[v].begin(), surface.fans[v].end());
+      patch.insert(patch.end(), surface.incident_triangles[v].begin(),
+                   surface.incident_triangles[v].end());
       path[v] = far;
     }
     reached.clear();

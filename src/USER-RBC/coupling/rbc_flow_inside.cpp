@@ -29,7 +29,7 @@ fluid::Interior *FlowInside::find(const fluid::Flow &flow)
   const RegionEnclosure enclosure(region, domain);
   interior_ = std::make_unique<fluid::Interior>(flow.grid(), flow.decomposition(),
                                                 [&](const fluid::Real3 &x) {
-                                                  return enclosure.holds({x[0], x[1], x[2]});
+                                                  return enclosure.contains({x[0], x[1], x[2]});
                                                 });
   if (interior_->volume() == 0)
     error->all(FLERR, "Region {} for {} inside holds nothing of the simulation box", region_id_,

@@ -45,9 +45,9 @@ int opposite(const Corners &triangle, int a, int b)
   return -1;
 }
 
-bool connected(const std::vector<std::vector<int>> &neighbours)
+bool connected(const std::vector<std::vector<int>> &neighbors)
 {
-  std::vector<char> seen(neighbours.size());
+  std::vector<char> seen(neighbors.size());
   std::vector<int> open{0};
   seen[0] = 1;
   std::size_t count = 0;
@@ -55,50 +55,52 @@ bool connected(const std::vector<std::vector<int>> &neighbours)
     const int v = open.back();
     open.pop_back();
     ++count;
-    for (int w : neighbours[v])
+    for (int w : neighbors[v])
       if (!seen[w]) {
         seen[w] = 1;
         open.push_back(w);
       }
   }
-  return count == neighbours.size();
+  return count == neighbors.size();
 }
 
 }    // namespace
 
 SurfaceTemplate::SurfaceTemplate(std::vector<Vec3> vertices_in, std::vector<Corners> triangles_in) :
     vertices(std::move(vertices_in)), triangles(std::move(triangles_in)),
-    vertex_area(vertices.size()), curvature(vertices.size()), neighbours(vertices.size()),
-    fans(vertices.size())
+    vertex_area(vertices.size()), curvature(vertices.size()), neighbors(vertices.size()),
+    incident_triangles(vertices.size())
 {
   require(triangles.size() >= 4, "a closed surface needs at least 4 triangles");
-  const auto left = directed_edges(size(), triangles);
+  const auto left = directed_edges(vertex_count(), triangles);
 
   for (int t = 0; t < static_cast<int>(triangles.size()); ++t)
-    for (int v : triangles[t]) fans[v].push_back(t);
+    for (int v : triangles[t]) incident_triangles[v].push_back(t);
   for (const auto &[edge, triangle] : left) {
     const auto [a, b] = edge;
     const auto twin = left.find({b, a});
     require(twin != left.end(), "edge " + std::to_string(a + 1) + "-" + std::to_string(b + 1) +
                                     " belongs to one triangle only: the surface is not closed");
-    neighbours[a].push_back(b);
+    neighbors[a].push_back(b);
     if (a < b)
       hinges.push_back({a, b, opposite(triangles[triangle], a, b),
                         opposite(triangles[twin->second], a, b), triangle, twin->second});
   }
-  for (int v = 0; v < size(); ++v)
-    require(!fans[v].empty(), "vertex " + std::to_string(v + 1) + " belongs to no triangle");
-  require(connected(neighbours), "the surface is in more than one piece");
-  require(size() - static_cast<int>(hinges.size()) + static_cast<int>(triangles.size()) == 2,
+  for (int v = 0; v < vertex_count(); ++v)
+    require(!incident_triangles[v].empty(),
+            "vertex " + std::to_string(v + 1) + " belongs to no triangle");
+  require(connected(neighbors), "the surface is in more than one piece");
+  require(vertex_count() - static_cast<int>(hinges.size()) + static_cast<int>(triangles.size()) ==
+              2,
           "the surface is not a sphere topologically (vertices - edges + triangles must be 2)");
-  for (int v = 0; v < size(); ++v) {
+  for (int v = 0; v < vertex_count(); ++v) {
     std::size_t around = 0;
-    int w = neighbours[v][0];
+    int w = neighbors[v][0];
     do {
       w = opposite(triangles[left.at({v, w})], v, w);
       ++around;
-    } while (w != neighbours[v][0]);
-    require(around == fans[v].size(),
+    } while (w != neighbors[v][0]);
+    require(around == incident_triangles[v].size(),
             "the surface touches itself at vertex " + std::to_string(v + 1));
   }
 
@@ -146,8 +148,9 @@ void SurfaceTemplate::take_reference(const SurfaceTemplate &stress_free)
     return std::to_string(corners[0] + 1) + "-" + std::to_string(corners[1] + 1) + "-" +
            std::to_string(corners[2] + 1);
   };
-  require(stress_free.size() == size(), "it has " + std::to_string(stress_free.size()) +
-                                            " vertices, not " + std::to_string(size()));
+  require(stress_free.vertex_count() == vertex_count(),
+          "it has " + std::to_string(stress_free.vertex_count()) + " vertices, not " +
+              std::to_string(vertex_count()));
   require(stress_free.triangles.size() == triangles.size(),
           "it has " + std::to_string(stress_free.triangles.size()) + " triangles, not " +
               std::to_string(triangles.size()));

@@ -37,7 +37,8 @@ class SurfaceTemplate {
   /// right-handed outward and uses every vertex.
   SurfaceTemplate(std::vector<Vec3> vertices, std::vector<Corners> triangles);
 
-  int size() const { return static_cast<int>(vertices.size()); }
+  int vertex_count() const { return static_cast<int>(vertices.size()); }
+  int size() const { return vertex_count(); }    ///< former name, for callers not changed yet
 
   /// Takes the stress-free triangles of another surface. Throws std::invalid_argument, saying which triangle differs,
   /// unless it joins the same vertices.
@@ -49,10 +50,10 @@ class SurfaceTemplate {
   std::vector<ReferenceTriangle> reference;
   std::vector<ReferenceHinge> reference_hinges;
   std::array<std::vector<double>, 3> corner_share;    ///< of each triangle's area
-  std::vector<double> vertex_area;             ///< each vertex's share of the area of the shape
-  std::vector<double> curvature;               ///< mean curvature of the shape at each vertex
-  std::vector<std::vector<int>> neighbours;    ///< vertices that share an edge
-  std::vector<std::vector<int>> fans;          ///< triangles around each vertex
+  std::vector<double> vertex_area;            ///< each vertex's share of the area of the shape
+  std::vector<double> curvature;              ///< mean curvature of the shape at each vertex
+  std::vector<std::vector<int>> neighbors;    ///< vertices that share an edge
+  std::vector<std::vector<int>> incident_triangles;    ///< triangles around each vertex
   double area = 0, volume = 0;
   double longest_edge = 0, mean_edge = 0;
 };

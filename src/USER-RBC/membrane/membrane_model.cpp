@@ -31,8 +31,9 @@ MembraneModel::MembraneModel(const SurfaceTemplate &shape, const MembraneParamet
     rest_curvature_(shape.curvature), edge1_(shape.triangles.size()),
     edge2_(shape.triangles.size()), normal_(shape.triangles.size()),
     twice_area_(shape.triangles.size()), corner_force_(3 * shape.triangles.size()),
-    moment_(shape.hinges.size()), pull_(shape.hinges.size()), vertex_area_(shape.size()),
-    vertex_integral_(shape.size()), vertex_tension_(shape.size()), folded_(shape.triangles.size())
+    moment_(shape.hinges.size()), pull_(shape.hinges.size()), vertex_area_(shape.vertex_count()),
+    vertex_integral_(shape.vertex_count()), vertex_tension_(shape.vertex_count()),
+    folded_(shape.triangles.size())
 {
   const double c0 = parameters.spontaneous_curvature;
   if (!parameters.reference_curvature)
@@ -61,11 +62,11 @@ void MembraneModel::set_cell(const CellElements &elements, const std::vector<Vec
   });
 }
 
-CellSize MembraneModel::size() const
+AreaVolume MembraneModel::size() const
 {
   const CellElements &elements = *elements_;
-  const int count = elements.loaded;
-  const std::vector<double> &counts = elements.triangle_counts;
+  const int count = elements.owned_triangles;
+  const std::vector<double> &counts = elements.triangle_energy_weight;
   return {sum(count, [&](int t) { return counts[t] * twice_area_[t] / 2; }), sum(count, [&](int t) {
             const PlainVector corner = position(x_, elements.corners[0][t]);
             return counts[t] * dot(corner, normal_[t]) * twice_area_[t] / 6;
@@ -74,8 +75,8 @@ CellSize MembraneModel::size() const
 
 void MembraneModel::volume_gradient(Vec3 *gradient) const
 {
-  std::fill_n(gradient, shape_.size(), Vec3::Zero());
-  for (int t = 0; t < elements_->loaded; ++t) {
+  std::fill_n(gradient, shape_.vertex_count(), Vec3::Zero());
+  for (int t = 0; t < elements_->owned_triangles; ++t) {
     const PlainVector third = twice_area_[t] / 6 * normal_[t];
     for (const std::vector<int> &corner : elements_->corners)
       gradient[corner[t]] += Vec3(third.x, third.y, third.z);
@@ -101,7 +102,7 @@ std::string MembraneModel::find_flaw()
   return flaw;
 }
 
-MembraneEnergy MembraneModel::forces(const CellSize &size, std::vector<Vec3> &f)
+MembraneEnergy MembraneModel::forces(const AreaVolume &size, std::vector<Vec3> &f)
 {
   const MembraneEnergy energy = std::visit(
       [&](const auto &law) {
@@ -129,7 +130,7 @@ double MembraneModel::bend_hinges()
     const HingeEnergy hinge =
         dihedral_bending(stiffness, angle.sine, angle.cosine, rest.sine, rest.cosine);
     moment_[e] = hinge.by_angle * over_length;
-    return elements.hinge_counts[e] * hinge.value;
+    return elements.hinge_energy_weight[e] * hinge.value;
   });
 }
 
@@ -159,7 +160,7 @@ double MembraneModel::bend_vertices()
 
   // From here vertex_integral_ holds d(energy)/d(integral).
   double energy = 0;
-  for (int v = 0; v < shape_.size(); ++v) {
+  for (int v = 0; v < shape_.vertex_count(); ++v) {
     const VertexEnergy vertex = helfrich_bending(parameters_.bending, vertex_area_[v],
                                                  vertex_integral_[v], rest_curvature_[v]);
     if (elements.owned[v]) energy += vertex.value;
@@ -186,13 +187,13 @@ double MembraneModel::resist_creases()
         hinge_angle(over_length * edge, normal_[elements.left[e]], normal_[elements.right[e]]);
     const HingeEnergy hinge = crease_resistance(crease, angle.sine, angle.cosine);
     moment_[e] += hinge.by_angle * over_length;
-    return elements.hinge_counts[e] * hinge.value;
+    return elements.hinge_energy_weight[e] * hinge.value;
   });
 }
 
 /// Forces of the triangles on their corners.
 template <BendingForm form, typename Law>
-MembraneEnergy MembraneModel::load(const Law &law, const CellSize &size)
+MembraneEnergy MembraneModel::load(const Law &law, const AreaVolume &size)
 {
   MembraneEnergy energy;
   if constexpr (form == BendingForm::dihedral) energy.bending = bend_hinges();
@@ -214,7 +215,7 @@ MembraneEnergy MembraneModel::load(const Law &law, const CellSize &size)
   const double pressure = parameters_.volume > 0 ? -parameters_.volume * volume_strain : 0;
   const double local_area = parameters_.local_area;
   const StretchLimit limit = parameters_.stretch;
-  const int count = elements.loaded;
+  const int count = elements.owned_triangles;
 
   energy.sheet = sum(
       count, [&](int t) __attribute__((always_inline)) {
@@ -242,14 +243,14 @@ MembraneEnergy MembraneModel::load(const Law &law, const CellSize &size)
         corner_force_.set(t, triangle.corner0());
         corner_force_.set(count + t, triangle.corner1());
         corner_force_.set(2 * count + t, triangle.corner2());
-        return elements.triangle_counts[t] * area * (sheet.density + stiffening.density);
+        return elements.triangle_energy_weight[t] * area * (sheet.density + stiffening.density);
       });
 
   if (local_area > 0)
     energy.area = sum(count, [&](int t) {
       const double area = shape_.reference[elements.triangles[t]].area;
       const double strain = twice_area_[t] / (2 * area) - 1;
-      return elements.triangle_counts[t] * local_area / 2 * strain * strain * area;
+      return elements.triangle_energy_weight[t] * local_area / 2 * strain * strain * area;
     });
   // The penalties of a whole cell are counted by the rank that owns its first vertex.
   if (elements.owned[0]) {
@@ -262,10 +263,10 @@ MembraneEnergy MembraneModel::load(const Law &law, const CellSize &size)
 void MembraneModel::sum_corners(std::vector<Vec3> &f) const
 {
   const CellElements &elements = *elements_;
-  for (int v = 0; v < shape_.size(); ++v) {
+  for (int v = 0; v < shape_.vertex_count(); ++v) {
     PlainVector sum{0, 0, 0};
-    for (int n = elements.fan_begin[v]; n < elements.fan_begin[v + 1]; ++n)
-      sum = sum + corner_force_[elements.fan[n]];
+    for (int n = elements.incident_begin[v]; n < elements.incident_begin[v + 1]; ++n)
+      sum = sum + corner_force_[elements.incident_corners[n]];
     f[v] = {sum.x, sum.y, sum.z};
   }
 }

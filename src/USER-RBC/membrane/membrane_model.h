@@ -4,17 +4,12 @@
 #include "geometry/vector_array.h"
 #include "membrane/cell_elements.h"
 #include "membrane/crease_resistance.h"
-#include "membrane/mooney_rivlin.h"
-#include "membrane/neo_hookean.h"
-#include "membrane/skalak.h"
+#include "membrane/sheet_laws.h"
 #include "membrane/stretch_limit.h"
 
 #include <string>
-#include <variant>
 
 namespace rbc {
-
-using SheetLaw = std::variant<MooneyRivlin, NeoHookean, Skalak>;
 
 enum class BendingForm { none, helfrich, dihedral };
 
@@ -32,9 +27,11 @@ struct MembraneParameters {
 };
 
 /// Area and volume of a cell, or of the triangles whose first corner a rank owns.
-struct CellSize {
+struct AreaVolume {
   double area = 0, volume = 0;
 };
+
+using CellSize = AreaVolume;    ///< former name, for callers not changed yet
 
 struct MembraneEnergy {
   double sheet = 0, bending = 0, area = 0, volume = 0;
@@ -57,23 +54,23 @@ class MembraneModel {
   /// Whether forces() needs the size of the whole cell.
   bool needs_size() const { return parameters_.global_area > 0 || parameters_.volume > 0; }
 
-  /// Takes a cell in hand; the functions below are of this cell. Positions must be relative to a nearby origin; they
-  /// and `elements` are kept by reference.
+  /// Makes this the current cell, which all functions below work on. Positions must be relative to a
+  /// nearby origin. They and `elements` are kept by reference.
   void set_cell(const CellElements &elements, const std::vector<Vec3> &x);
 
   /// This rank's share of the size.
-  CellSize size() const;
+  AreaVolume size() const;
 
   /// dV/dx of the vertices owned (others are left undefined), an entry for each vertex of the template.
   void volume_gradient(Vec3 *gradient) const;
 
-  /// Says which triangle is folded over by more than 120 degrees against all three neighbours, or which two are folded onto
+  /// Says which triangle is folded over by more than 120 degrees against all three neighbors, or which two are folded onto
   /// each other: the mesh does not resolve the shape, or parts of it have passed through others. Empty if there are none.
   std::string find_flaw();
 
   /// Forces on the vertices owned (others are left undefined) and this rank's share of the energy. `size` is that of
   /// the whole cell.
-  MembraneEnergy forces(const CellSize &size, std::vector<Vec3> &f);
+  MembraneEnergy forces(const AreaVolume &size, std::vector<Vec3> &f);
 
  private:
   struct RestAngle {
@@ -84,7 +81,7 @@ class MembraneModel {
   double bend_vertices();
   double resist_creases();
   template <BendingForm form, typename Law>
-  MembraneEnergy load(const Law &law, const CellSize &size);
+  MembraneEnergy load(const Law &law, const AreaVolume &size);
   void sum_corners(std::vector<Vec3> &f) const;
 
   const SurfaceTemplate &shape_;
@@ -93,7 +90,7 @@ class MembraneModel {
   std::vector<RestAngle> rest_angle_;     ///< of each hinge of the template
   std::vector<double> rest_curvature_;    ///< of each vertex of the template
 
-  // Of the cell in hand.
+  // Of the current cell.
   const CellElements *elements_ = nullptr;
   const double *x_ = nullptr;
   VectorArray edge1_, edge2_, normal_;    ///< of each triangle: from its first corner to the others
@@ -103,7 +100,7 @@ class MembraneModel {
   std::vector<double> pull_;      ///< of each hinge: d(energy)/d(length) per length
   std::vector<double> vertex_area_, vertex_integral_;    ///< of the mean curvature
   std::vector<double> vertex_tension_;                   ///< d(bending energy)/d(vertex area)
-  std::vector<int> folded_;    ///< neighbours against which a triangle is folded over
+  std::vector<int> folded_;    ///< neighbors against which a triangle is folded over
 };
 
 }    // namespace rbc

@@ -11,8 +11,8 @@ namespace rbc {
 inline void vertex_tension(const SurfaceTemplate &shape, const MembraneParameters &parameters,
                            const std::vector<Vec3> &x, std::vector<double> &tension)
 {
-  tension.assign(shape.size(), 0.0);
-  std::vector<double> vertex_area(shape.size());
+  tension.assign(shape.vertex_count(), 0.0);
+  std::vector<double> vertex_area(shape.vertex_count());
   double area = 0;
   for (std::size_t t = 0; t < shape.triangles.size(); ++t) {
     const auto &[i, j, k] = shape.triangles[t];
@@ -32,7 +32,8 @@ inline void vertex_tension(const SurfaceTemplate &shape, const MembraneParameter
     area += share;
   }
   const double of_whole_cell = parameters.global_area * (area - shape.area) / shape.area;
-  for (int v = 0; v < shape.size(); ++v) tension[v] = tension[v] / vertex_area[v] + of_whole_cell;
+  for (int v = 0; v < shape.vertex_count(); ++v)
+    tension[v] = tension[v] / vertex_area[v] + of_whole_cell;
 }
 
 }    // namespace rbc

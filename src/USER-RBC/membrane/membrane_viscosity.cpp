@@ -77,7 +77,7 @@ double viscous_forces(const SurfaceTemplate &shape, const SurfaceViscosity &visc
 {
   std::fill(f.begin(), f.end(), Vec3::Zero());
   double power = 0;
-  for (int n = 0; n < elements.loaded; ++n) {
+  for (int n = 0; n < elements.owned_triangles; ++n) {
     const auto &corners = shape.triangles[elements.triangles[n]];
     const Plane plane(corners, x.data());
     const Tensor rate = plane.rate(v.data()), deviator = plane.deviator(rate);
@@ -94,7 +94,7 @@ void viscous_forces_change(const SurfaceTemplate &shape, const SurfaceViscosity 
                            bool frozen, const std::vector<Vec3> &w, std::vector<Vec3> &f)
 {
   std::fill(f.begin(), f.end(), Vec3::Zero());
-  for (int n = 0; n < elements.loaded; ++n) {
+  for (int n = 0; n < elements.owned_triangles; ++n) {
     const Plane plane(shape.triangles[elements.triangles[n]], x.data());
     const Tensor rate = plane.rate(v), deviator = plane.deviator(rate);
     const double speed = shear(rate, deviator);

@@ -66,7 +66,7 @@ VtpWriter::VtpWriter(std::string path, double time, const PointData &data,
   std::int64_t vertices = 0, triangles = 0;
   for (const Block &block : blocks) {
     blocks_.push_back({block.shape, vertices, triangles});
-    vertices += block.cells * block.shape->size();
+    vertices += block.cells * block.shape->vertex_count();
     triangles += block.cells * static_cast<std::int64_t>(block.shape->triangles.size());
   }
   if (3 * triangles > std::numeric_limits<Name>::max())
@@ -125,7 +125,7 @@ void VtpWriter::write(int block, std::int64_t cell, const double *labels, const 
 {
   const SurfaceTemplate &shape = *blocks_[block].shape;
   const auto triangles = static_cast<std::int64_t>(shape.triangles.size());
-  const std::int64_t first_vertex = blocks_[block].first_vertex + cell * shape.size();
+  const std::int64_t first_vertex = blocks_[block].first_vertex + cell * shape.vertex_count();
   const std::int64_t first_triangle = blocks_[block].first_triangle + cell * triangles;
   const auto place = [&](const Section &section, std::int64_t first, const void *data,
                          std::int64_t count) {
@@ -134,12 +134,13 @@ void VtpWriter::write(int block, std::int64_t cell, const double *labels, const 
   };
 
   for (const Section &section : values_) {
-    place(section, first_vertex, values, shape.size());
-    values += shape.size() * section.width / sizeof(double);
+    place(section, first_vertex, values, shape.vertex_count());
+    values += shape.vertex_count() * section.width / sizeof(double);
   }
   for (const Section &section : labels_) {
-    const std::vector<std::int64_t> same(shape.size(), static_cast<std::int64_t>(*labels++));
-    place(section, first_vertex, same.data(), shape.size());
+    const std::vector<std::int64_t> same(shape.vertex_count(),
+                                         static_cast<std::int64_t>(*labels++));
+    place(section, first_vertex, same.data(), shape.vertex_count());
   }
 
   std::vector<Name> corners, ends;

@@ -10,11 +10,11 @@ constexpr int search_steps = 4;
 
 /// Coordinates of the probe's template in those of the body's.
 struct Relative {
-  Eigen::Matrix3d turn;
+  Eigen::Matrix3d rotation;
   Vec3 shift;
 
   Relative(const RigidCell &probe, const RigidCell &body) :
-      turn(body.turn.transpose() * probe.turn), shift(body.body(probe.centre))
+      rotation(body.rotation.transpose() * probe.rotation), shift(body.body(probe.centre))
   {
   }
 };
@@ -64,13 +64,13 @@ CellApproach::CellApproach(const RigidCell &probe, const RigidCell &body, double
   seen.clear();
   bool near = false;
   for (const Vec3 &vertex : surface.vertices) {
-    const Vec3 place = to_body.turn * vertex + to_body.shift;
+    const Vec3 place = to_body.rotation * vertex + to_body.shift;
     seen.push_back({place, field.at(place)});
     near = near || seen.back().sample.distance < reach + largest_slope * surface.longest_edge / 2;
   }
   if (!near) return;
 
-  std::vector<int> place_of(surface.size(), -1);
+  std::vector<int> place_of(surface.vertex_count(), -1);
   const auto keep = [&](int v) {
     if (place_of[v] < 0) {
       place_of[v] = static_cast<int>(vertices_.size());
@@ -78,7 +78,7 @@ CellApproach::CellApproach(const RigidCell &probe, const RigidCell &body, double
     }
     return place_of[v];
   };
-  for (int v = 0; v < surface.size(); ++v)
+  for (int v = 0; v < surface.vertex_count(); ++v)
     if (seen[v].sample.distance < reach) keep(v);
   for (const Hinge &edge : surface.hinges) {
     const Seen &a = seen[edge.a], &b = seen[edge.b];
@@ -93,13 +93,13 @@ CellApproach::CellApproach(const RigidCell &probe, const RigidCell &body, double
 }
 
 void CellApproach::push(const RigidCell &probe, const RigidCell &body, double clearance,
-                        Push &push) const
+                        Wrench &push) const
 {
   const Relative to_body(probe, body);
   const SurfaceTemplate &surface = probe.shape->surface;
   const DistanceField &field = body.shape->field;
 
-  Push in_body;
+  Wrench in_body;
   const auto act = [&](const Seen &point) {
     const double depth = clearance - point.sample.distance;
     if (depth > 0) in_body.add(point.place - to_body.shift, depth * point.sample.gradient, depth);
@@ -108,7 +108,7 @@ void CellApproach::push(const RigidCell &probe, const RigidCell &body, double cl
   static thread_local std::vector<Seen> seen;
   seen.clear();
   for (int v : vertices_) {
-    const Vec3 place = to_body.turn * surface.vertices[v] + to_body.shift;
+    const Vec3 place = to_body.rotation * surface.vertices[v] + to_body.shift;
     seen.push_back({place, field.at(place)});
     act(seen.back());
   }
@@ -118,8 +118,8 @@ void CellApproach::push(const RigidCell &probe, const RigidCell &body, double cl
     if (may_dip_below(clearance, (b.place - a.place).norm(), a, b) && find_dip(field, a, b, dip))
       act(dip);
   }
-  push.force += body.turn * in_body.force;
-  push.torque += body.turn * in_body.torque;
+  push.force += body.rotation * in_body.force;
+  push.torque += body.rotation * in_body.torque;
   push.overlap = std::max(push.overlap, in_body.overlap);
 }
 

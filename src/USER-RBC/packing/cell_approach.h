@@ -16,7 +16,7 @@ class CellApproach {
 
   /// On the probe: down the energy (clearance - distance)^2 / 2, summed over the vertices, and the points of edges
   /// closest to the body, that are nearer than `clearance`. The body is pushed the other way at the same places.
-  void push(const RigidCell &probe, const RigidCell &body, double clearance, Push &push) const;
+  void push(const RigidCell &probe, const RigidCell &body, double clearance, Wrench &push) const;
 
  private:
   struct Edge {

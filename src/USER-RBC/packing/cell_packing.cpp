@@ -77,7 +77,7 @@ std::pair<int, int> CellPacking::share(std::size_t count) const
 
 bool CellPacking::in_part(const Vec3 &x) const
 {
-  return !enclosure_ || enclosure_->holds(x);
+  return !enclosure_ || enclosure_->contains(x);
 }
 
 /* ----------------------------------------------------------------------
@@ -101,7 +101,7 @@ bool CellPacking::place_spheres()
   PointBins placed(box_, apart);
   for (const Vec3 &point : points_) placed.add(point);
   cells_.clear();
-  turns_.clear();
+  rotations_.clear();
   anchors_.clear();
   for (const int kind : kinds_) {
     Vec3 centre;
@@ -118,9 +118,9 @@ bool CellPacking::place_spheres()
     placed.add(centre);
     anchors_.push_back(centre);
     const double u = uniform(0, 1), a = uniform(0, 2 * M_PI), b = uniform(0, 2 * M_PI);
-    turns_.emplace_back(std::sqrt(u) * std::cos(b), std::sqrt(1 - u) * std::sin(a),
-                        std::sqrt(1 - u) * std::cos(a), std::sqrt(u) * std::sin(b));
-    cells_.push_back({shapes_[kind].get(), centre, turns_.back().toRotationMatrix(), size_});
+    rotations_.emplace_back(std::sqrt(u) * std::cos(b), std::sqrt(1 - u) * std::sin(a),
+                            std::sqrt(1 - u) * std::cos(a), std::sqrt(u) * std::sin(b));
+    cells_.push_back({shapes_[kind].get(), centre, rotations_.back().toRotationMatrix(), size_});
   }
   return true;
 }
@@ -132,7 +132,7 @@ RigidCell CellPacking::shifted(const Pair &pair) const
   return cell;
 }
 
-void CellPacking::find_neighbours()
+void CellPacking::find_neighbors()
 {
   const double widest = size_ * (2 * radius_ + reach());
   PointBins centres(box_, widest), points(box_, widest);
@@ -169,7 +169,7 @@ void CellPacking::find_neighbours()
   grown_ = 0;
 }
 
-bool CellPacking::neighbours_are_old() const
+bool CellPacking::neighbors_are_old() const
 {
   const double farthest = *std::max_element(moved_.begin(), moved_.end());
   return 2 * farthest + (2 * radius_ + reach()) * grown_ > reach() - clearance();
@@ -179,7 +179,7 @@ bool CellPacking::neighbours_are_old() const
    of walls, the enclosure and points
 ------------------------------------------------------------------------- */
 
-void CellPacking::push_from_walls(const Vec3 &arm, const Vec3 &x, Push &push) const
+void CellPacking::push_from_walls(const Vec3 &arm, const Vec3 &x, Wrench &push) const
 {
   const double distance = gap_ / 2 + margin_;
   for (int d = 0; d < 3; ++d) {
@@ -191,13 +191,13 @@ void CellPacking::push_from_walls(const Vec3 &arm, const Vec3 &x, Push &push) co
   }
 }
 
-Push CellPacking::outer_push(const Single &single) const
+Wrench CellPacking::outer_push(const Single &single) const
 {
   const RigidCell &cell = cells_[single.cell];
   const bool near_wall = box_.clearance(cell.centre) < size_ * (cell.shape->radius + clearance());
-  Push push;
-  for (int v = 0; (near_wall || enclosure_) && v < cell.shape->surface.size(); ++v) {
-    const Vec3 arm = cell.turn * cell.shape->surface.vertices[v];
+  Wrench push;
+  for (int v = 0; (near_wall || enclosure_) && v < cell.shape->surface.vertex_count(); ++v) {
+    const Vec3 arm = cell.rotation * cell.shape->surface.vertices[v];
     const Vec3 x = cell.centre + size_ * arm;
     if (near_wall) push_from_walls(arm, x, push);
     if (!enclosure_) continue;
@@ -208,7 +208,8 @@ Push CellPacking::outer_push(const Single &single) const
   for (const Vec3 &point : single.points) {
     const auto [distance, gradient] = cell.shape->field.at(cell.body(point));
     const double depth = clearance() - distance;
-    if (depth > 0) push.add((point - cell.centre) / size_, -depth * (cell.turn * gradient), depth);
+    if (depth > 0)
+      push.add((point - cell.centre) / size_, -depth * (cell.rotation * gradient), depth);
   }
   return push;
 }
@@ -217,11 +218,11 @@ Push CellPacking::outer_push(const Single &single) const
    on all cells, in lengths of the templates; each rank finds its share
 ------------------------------------------------------------------------- */
 
-std::vector<Push> CellPacking::pushes()
+std::vector<Wrench> CellPacking::pushes()
 {
   constexpr int size = 8;
   std::vector<double> mine;
-  const auto pack = [&](int number, const Push &push) {
+  const auto pack = [&](int number, const Wrench &push) {
     if (push.overlap > 0)
       mine.insert(mine.end(), {double(number), push.force[0], push.force[1], push.force[2],
                                push.torque[0], push.torque[1], push.torque[2], push.overlap});
@@ -229,7 +230,7 @@ std::vector<Push> CellPacking::pushes()
   for (const Contact &contact : contacts_) {
     const Pair &pair = pairs_[contact.pair];
     const RigidCell &a = cells_[pair.a], b = shifted(pair);
-    Push on_a, on_b;
+    Wrench on_a, on_b;
     contact.a_to_b.push(a, b, clearance(), on_a);
     contact.b_to_a.push(b, a, clearance(), on_b);
     on_a.force -= on_b.force;
@@ -241,8 +242,8 @@ std::vector<Push> CellPacking::pushes()
   for (const Single &single : singles_) pack(pairs + single.cell, outer_push(single));
 
   const std::vector<double> all = ranks_.gather(mine);
-  std::vector<Push> pushes(cells_.size());
-  const auto act = [&](Push &on, const Vec3 &force, const Vec3 &torque, double overlap) {
+  std::vector<Wrench> pushes(cells_.size());
+  const auto act = [&](Wrench &on, const Vec3 &force, const Vec3 &torque, double overlap) {
     on.force += force;
     on.torque += torque;
     on.overlap = std::max(on.overlap, overlap);
@@ -277,9 +278,10 @@ void CellPacking::move(const std::vector<double> &moves)
     const double angle = rotation.norm();
     cell.centre += size_ * shift;
     if (angle > 0)
-      turns_[c] =
-          (Eigen::Quaterniond(Eigen::AngleAxisd(angle, rotation / angle)) * turns_[c]).normalized();
-    cell.turn = turns_[c].toRotationMatrix();
+      rotations_[c] =
+          (Eigen::Quaterniond(Eigen::AngleAxisd(angle, rotation / angle)) * rotations_[c])
+              .normalized();
+    cell.rotation = rotations_[c].toRotationMatrix();
     moved_[c] += shift.norm() + cell.shape->radius * angle;
     if (in_part(cell.centre)) anchors_[c] = cell.centre;
   }
@@ -301,8 +303,8 @@ bool CellPacking::settle(int steps, bool growing)
   Fire fire(6 * cells_.size(), time_step / 3, time_step, largest_move * radius_);
   std::vector<double> forces(6 * cells_.size());
   for (const int last = steps_taken_ + steps; steps_taken_ < last; ++steps_taken_) {
-    if (neighbours_are_old()) find_neighbours();
-    const std::vector<Push> on = pushes();
+    if (neighbors_are_old()) find_neighbors();
+    const std::vector<Wrench> on = pushes();
     double overlap = 0;
     for (std::size_t c = 0; c < cells_.size(); ++c) {
       overlap = std::max(overlap, on[c].overlap);
@@ -326,7 +328,7 @@ bool CellPacking::settle(int steps, bool growing)
 
 bool CellPacking::check()
 {
-  find_neighbours();
+  find_neighbors();
   const double gap = size_ * gap_, far = gap + size_ * margin_;
   double least = far, least_wall = HUGE_VAL;
   bool inside = true;
@@ -337,7 +339,7 @@ bool CellPacking::check()
   for (const Single &single : singles_) {
     const RigidCell &cell = cells_[single.cell];
     for (const Vec3 &point : single.points) least = std::min(least, surface_gap(point, cell, far));
-    for (int v = 0; v < cell.shape->surface.size(); ++v) {
+    for (int v = 0; v < cell.shape->surface.vertex_count(); ++v) {
       const Vec3 x = cell.vertex(v);
       inside = inside && in_part(x);
       least_wall = std::min(least_wall, box_.clearance(x));
@@ -359,7 +361,7 @@ bool CellPacking::pack(int steps)
 {
   steps_taken_ = 0;
   if (!place()) return false;
-  find_neighbours();
+  find_neighbors();
   const double first_size = size_, margin = margin_;
   while (settle(steps - steps_taken_, true) && margin_ < largest_margin * radius_)
     if (check()) return true;

@@ -74,7 +74,7 @@ class CellPacking {
   std::vector<Vec3> points_;
 
   std::vector<RigidCell> cells_;
-  std::vector<Eigen::Quaterniond> turns_;
+  std::vector<Eigen::Quaterniond> rotations_;
   std::vector<Vec3> anchors_;    ///< last centre of each that was inside the enclosure
   double size_ = 0, radius_ = 0, growing_overlap_ = 0;
   double margin_ = 0;    ///< kept beyond the gap, for the errors of the distance fields
@@ -91,11 +91,11 @@ class CellPacking {
   bool place();
   bool place_spheres();
   bool in_part(const Vec3 &x) const;
-  void find_neighbours();
-  bool neighbours_are_old() const;
-  std::vector<Push> pushes();
-  void push_from_walls(const Vec3 &arm, const Vec3 &x, Push &push) const;
-  Push outer_push(const Single &single) const;
+  void find_neighbors();
+  bool neighbors_are_old() const;
+  std::vector<Wrench> pushes();
+  void push_from_walls(const Vec3 &arm, const Vec3 &x, Wrench &push) const;
+  Wrench outer_push(const Single &single) const;
   void move(const std::vector<double> &moves);
   void resize(double size);
   bool settle(int steps, bool growing);

@@ -17,7 +17,7 @@ struct RigidShape {
     double square = 0;
     for (const Vec3 &vertex : surface.vertices) {
       radius = std::max(radius, vertex.norm());
-      square += vertex.squaredNorm() / surface.size();
+      square += vertex.squaredNorm() / surface.vertex_count();
     }
     gyration = std::sqrt(square);
   }
@@ -32,17 +32,17 @@ struct RigidShape {
 struct RigidCell {
   const RigidShape *shape;
   Vec3 centre;
-  Eigen::Matrix3d turn;
+  Eigen::Matrix3d rotation;
   double size;
 
-  Vec3 vertex(int v) const { return centre + size * (turn * shape->surface.vertices[v]); }
+  Vec3 vertex(int v) const { return centre + size * (rotation * shape->surface.vertices[v]); }
 
   /// Into the coordinates of the template.
-  Vec3 body(const Vec3 &x) const { return turn.transpose() * (x - centre) / size; }
+  Vec3 body(const Vec3 &x) const { return rotation.transpose() * (x - centre) / size; }
 };
 
 /// Force and torque about the centre of a cell, and by how much it overlaps most. Lengths in those of the template.
-struct Push {
+struct Wrench {
   Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
   double overlap = 0;
 

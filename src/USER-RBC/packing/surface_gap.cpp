@@ -22,7 +22,7 @@ std::vector<BoundedTriangle> facing(const RigidCell &cell, const RigidCell &othe
   const SurfaceTemplate &surface = cell.shape->surface;
   std::vector<Vec3> vertices;
   std::vector<double> distance;
-  for (int v = 0; v < surface.size(); ++v) {
+  for (int v = 0; v < surface.vertex_count(); ++v) {
     vertices.push_back(cell.vertex(v));
     distance.push_back(other.size * other.shape->field.at(other.body(vertices.back())).distance);
   }

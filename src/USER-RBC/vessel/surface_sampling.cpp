@@ -77,7 +77,7 @@ void SurfaceSampling::find_crossings()
       here = first;
     else
       for (long j = 0; j < nodes[1]; ++j)
-        for (long i = 0; i < nodes[0]; ++i) here[i + row * j] = enclosure_.holds(place(i, j, k));
+        for (long i = 0; i < nodes[0]; ++i) here[i + row * j] = enclosure_.contains(place(i, j, k));
     if (k > 0)
       for (long j = 0; j < nodes[1]; ++j)
         for (long i = 0; i < nodes[0]; ++i)
@@ -163,7 +163,7 @@ void SurfaceSampling::relax(int steps)
 {
   anchors_ = points_;
   for (int step = 0; step < steps; ++step) {
-    if (step % steps_per_list == 0) find_neighbours();
+    if (step % steps_per_list == 0) find_neighbors();
     push_apart();
     if ((step + 1) % steps_per_projection == 0 || step + 1 == steps)
       for (std::size_t n = 0; n < points_.size(); ++n)
@@ -171,17 +171,17 @@ void SurfaceSampling::relax(int steps)
   }
 }
 
-void SurfaceSampling::find_neighbours()
+void SurfaceSampling::find_neighbors()
 {
   const double reach = list_reach * spacing_;
   PointBins bins(box_, reach);
   for (const Vec3 &point : points_) bins.add(point);
-  neighbours_.resize(points_.size());
+  neighbors_.resize(points_.size());
   for (std::size_t n = 0; n < points_.size(); ++n) {
-    neighbours_[n].clear();
+    neighbors_[n].clear();
     bins.visit(points_[n], reach, [&](int m, const Vec3 &image) {
       if ((image - points_[n]).isZero() || normals_[m].dot(normals_[n]) < 0) return;
-      neighbours_[n].emplace_back(m, image - points_[m]);
+      neighbors_[n].emplace_back(m, image - points_[m]);
     });
   }
 }
@@ -193,7 +193,7 @@ void SurfaceSampling::push_apart()
   std::vector<Vec3> moved(points_.size());
   for (std::size_t n = 0; n < points_.size(); ++n) {
     Vec3 force = Vec3::Zero();
-    for (const auto &[m, shift] : neighbours_[n]) {
+    for (const auto &[m, shift] : neighbors_[n]) {
       const Vec3 arm = points_[n] - points_[m] - shift;
       const double distance = arm.norm();
       if (distance < reach && distance > 0) force += (reach / distance - 1) * arm;
@@ -222,15 +222,15 @@ void SurfaceSampling::project(int n, double tolerance)
 {
   const Vec3 start = points_[n];
   const double fine = tolerance * spacing_;
-  const bool inside = enclosure_.holds(start);
+  const bool inside = enclosure_.contains(start);
   Vec3 other = start;
   for (double far = fine; far < largest_depth * spacing_; far *= 3) {
     other = start + (inside ? far : -far) * normals_[n];
-    if (enclosure_.holds(other) != inside) break;
+    if (enclosure_.contains(other) != inside) break;
   }
-  if (enclosure_.holds(other) == inside) {
+  if (enclosure_.contains(other) == inside) {
     other = anchors_[n] - largest_depth * spacing_ * normals_[n];
-    if (inside || !enclosure_.holds(other)) {
+    if (inside || !enclosure_.contains(other)) {
       points_[n] = anchors_[n];
       return;
     }
@@ -246,7 +246,7 @@ void SurfaceSampling::cut(Vec3 &in, Vec3 &out, double tolerance) const
 {
   while ((out - in).norm() > tolerance) {
     const Vec3 middle = (in + out) / 2;
-    (enclosure_.holds(middle) ? in : out) = middle;
+    (enclosure_.contains(middle) ? in : out) = middle;
   }
 }
 

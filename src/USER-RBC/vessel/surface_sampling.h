@@ -20,7 +20,7 @@ class SurfaceSampling {
 
   double area() const { return area_; }
 
-  /// Distances of points to their nearest neighbours.
+  /// Distances of points to their nearest neighbors.
   double mean_distance() const { return mean_distance_; }
   double least_distance() const { return least_distance_; }
 
@@ -39,7 +39,7 @@ class SurfaceSampling {
   std::vector<Crossing> crossings_;
   std::vector<Vec3> points_, normals_,
       anchors_;    ///< these are where points were on the surface last
-  std::vector<std::vector<std::pair<int, Vec3>>> neighbours_;    ///< numbers and shifts of images
+  std::vector<std::vector<std::pair<int, Vec3>>> neighbors_;    ///< numbers and shifts of images
   double area_ = 0, mean_distance_ = 0, least_distance_ = 0, largest_hole_ = 0;
 
   void find_crossings();
@@ -48,7 +48,7 @@ class SurfaceSampling {
   void choose();
   void choose(double distance);
   void relax(int steps);
-  void find_neighbours();
+  void find_neighbors();
   void push_apart();
   void project(int n, double tolerance);
   void cut(Vec3 &in, Vec3 &out, double tolerance) const;

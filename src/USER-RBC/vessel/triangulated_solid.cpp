@@ -1,6 +1,6 @@
 #include "vessel/triangulated_solid.h"
 
-#include "vessel/surface_joints.h"
+#include "vessel/mesh_connectivity.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -21,35 +21,35 @@ Vec3 area_vector(const Triangle &t)
 TriangulatedSolid::TriangulatedSolid(std::vector<Triangle> triangles, const PackingBox &box) :
     box_(box), triangles_(std::move(triangles))
 {
-  const SurfaceJoints joints(triangles_, box_);
-  box_.periodic = joints.open();
+  const MeshConnectivity mesh(triangles_, box_);
+  box_.periodic = mesh.open();
   lo_ = hi_ = triangles_[0][0];
   for (const Triangle &triangle : triangles_)
     for (const Vec3 &corner : triangle) {
       lo_ = lo_.cwiseMin(corner);
       hi_ = hi_.cwiseMax(corner);
     }
-  find_normals(joints);
+  find_normals(mesh);
   orient();
   index();
   measure_centres();
 }
 
-void TriangulatedSolid::find_normals(const SurfaceJoints &joints)
+void TriangulatedSolid::find_normals(const MeshConnectivity &mesh)
 {
   const int count = static_cast<int>(triangles_.size());
   normals_.resize(count);
   for (int t = 0; t < count; ++t) normals_[t].face = area_vector(triangles_[t]).normalized();
-  std::vector<Vec3> at_vertex(joints.vertices(), Vec3::Zero());
+  std::vector<Vec3> at_vertex(mesh.vertices(), Vec3::Zero());
   for (int t = 0; t < count; ++t)
     for (int c = 0; c < 3; ++c) {
       const Triangle &p = triangles_[t];
       const Vec3 u = p[(c + 1) % 3] - p[c], v = p[(c + 2) % 3] - p[c];
-      at_vertex[joints.vertex(t, c)] += std::atan2(u.cross(v).norm(), u.dot(v)) * normals_[t].face;
-      normals_[t].edge[(c + 2) % 3] = normals_[t].face + normals_[joints.neighbour(t, c)].face;
+      at_vertex[mesh.vertex(t, c)] += std::atan2(u.cross(v).norm(), u.dot(v)) * normals_[t].face;
+      normals_[t].edge[(c + 2) % 3] = normals_[t].face + normals_[mesh.neighbor(t, c)].face;
     }
   for (int t = 0; t < count; ++t)
-    for (int c = 0; c < 3; ++c) normals_[t].corner[c] = at_vertex[joints.vertex(t, c)];
+    for (int c = 0; c < 3; ++c) normals_[t].corner[c] = at_vertex[mesh.vertex(t, c)];
 }
 
 /* ----------------------------------------------------------------------
@@ -219,7 +219,7 @@ TriangulatedSolid::Nearest TriangulatedSolid::exact(const Vec3 &x, Best best) co
   return {best.from_surface, best.from_surface.dot(normal) > 0 ? distance : -distance};
 }
 
-bool TriangulatedSolid::holds(const Vec3 &x) const
+bool TriangulatedSolid::contains(const Vec3 &x) const
 {
   const Vec3 y = wrapped(x);
   if (beyond(y)) return false;

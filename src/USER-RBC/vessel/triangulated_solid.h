@@ -21,7 +21,7 @@ class TriangulatedSolid {
   TriangulatedSolid(std::vector<Triangle> triangles, const PackingBox &box);
 
   /// Points on the surface are inside.
-  bool holds(const Vec3 &x) const;
+  bool contains(const Vec3 &x) const;
 
   struct Nearest {
     Vec3 from_surface;    ///< vector from the closest point of the surface
@@ -73,7 +73,7 @@ class TriangulatedSolid {
   mutable Vec3 last_ = Vec3::Constant(NAN);
   mutable Nearest nearest_to_last_;
 
-  void find_normals(const class SurfaceJoints &joints);
+  void find_normals(const class MeshConnectivity &mesh);
   void orient();
   void index();
   void measure_centres();

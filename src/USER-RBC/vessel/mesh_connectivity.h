@@ -11,12 +11,12 @@
 namespace rbc {
 
 /// Which triangles of a surface meet, also behind periodic faces of a box through which the surface goes on.
-class SurfaceJoints {
+class MeshConnectivity {
  public:
   /// Joins corners at the same place, takes out triangles that have no area then, and puts the ends of the surface on the
   /// faces exactly. Throws std::invalid_argument, saying where, unless the surface is closed and all triangles are
   /// oriented alike.
-  SurfaceJoints(std::vector<Triangle> &triangles, const PackingBox &box);
+  MeshConnectivity(std::vector<Triangle> &triangles, const PackingBox &box);
 
   int vertices() const { return static_cast<int>(places_.size()); }
 
@@ -24,7 +24,7 @@ class SurfaceJoints {
   int vertex(int triangle, int corner) const { return twins_[corners_[triangle][corner]]; }
 
   /// Across the edge that begins at a corner.
-  int neighbour(int triangle, int edge) const { return neighbours_[triangle][edge]; }
+  int neighbor(int triangle, int edge) const { return neighbors_[triangle][edge]; }
 
   /// Directions in which the surface leaves the box.
   const std::array<bool, 3> &open() const { return open_; }
@@ -34,7 +34,7 @@ class SurfaceJoints {
   using Edge = std::pair<int, int>;     ///< its vertices
   using Place = std::pair<int, int>;    ///< a triangle and which edge of it
 
-  std::vector<Corners> corners_, neighbours_;
+  std::vector<Corners> corners_, neighbors_;
   std::vector<Vec3> places_;
   std::vector<int> twins_;    ///< of vertices on a face: the first at that place, or an image of it
   std::array<bool, 3> open_{};

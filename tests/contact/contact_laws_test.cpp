@@ -1,8 +1,9 @@
-#include "contact/jkr_contact.h"
+#include "contact/contact_laws.h"
 
 #include "../geometry/test_support.h"
 
-using rbc::TipContact;
+using rbc::HertzContact;
+using rbc::JkrContact;
 using test::pi;
 
 namespace {
@@ -22,15 +23,20 @@ double rounding(double number)
 struct Scaled {
   explicit Scaled(double K = 0.07, double sigma = 0.0013, double R = 0.31) :
       K(K), sigma(sigma), R(R), a0(std::cbrt(6 * pi * sigma * R * R / K)), delta0(a0 * a0 / R),
-      F0(pi * sigma * R), tip(TipContact::adhesive(K, sigma, R))
+      F0(pi * sigma * R), tip(K, sigma, R)
   {
   }
 
   double K, sigma, R, a0, delta0, F0;
-  TipContact tip;
+  JkrContact tip;
 
   double force(double h) const { return tip.force(h * delta0) / F0; }
-  double stiffness(double h) const { return tip.stiffness(h * delta0) / (K * a0); }
+  /// Slope of the force by the overlap, from the derivatives of both by the radius of the contact.
+  double stiffness(double h) const
+  {
+    const double x = contact_radius(h), x32 = x * std::sqrt(x);
+    return x * (3 * x32 - 1.5) / (2 * x32 - 1.0 / 3);
+  }
   double contact_radius(double h) const { return tip.contact_radius(h * delta0) / a0; }
 
   /// Equation 7 as printed.
@@ -70,22 +76,22 @@ TEST(Adhesive, ReferenceCurve)
 TEST(Adhesive, CharacteristicPoints)
 {
   const Scaled scaled;
-  const TipContact &tip = scaled.tip;
+  const JkrContact &tip = scaled.tip;
   const test::Table table = reference("06a_jkr_characteristic_points.csv");
   ASSERT_EQ(table.rows(), 4);
   const auto agree = [&](double found, int row, const char *column) {
     EXPECT_NEAR(found, table.number(row, column), rounding(table.number(row, column)) + 1e-12)
         << table.text(row, "point");
   };
-  const double overlap[] = {tip.equilibrium(), 0, -std::cbrt(0.5) / 6 * scaled.delta0,
-                            tip.separation()};
+  const double overlap[] = {tip.equilibrium_overlap(), 0, -std::cbrt(0.5) / 6 * scaled.delta0,
+                            tip.detachment_overlap()};
   for (int row = 0; row < 4; ++row) {
     agree(overlap[row] / scaled.delta0, row, "h_over_delta0");
     agree(tip.contact_radius(overlap[row]) / scaled.a0, row, "a_over_a0");
     agree(tip.force(overlap[row]) / scaled.F0, row, "F_over_pi_sigma_R");
   }
   EXPECT_NEAR(tip.pull_off() / scaled.F0, 1.5, 1e-12);
-  EXPECT_NEAR(tip.energy(tip.separation()) / (scaled.F0 * scaled.delta0), 0, 1e-15);
+  EXPECT_NEAR(tip.energy(tip.detachment_overlap()) / (scaled.F0 * scaled.delta0), 0, 1e-15);
 }
 
 TEST(Adhesive, SolvesEquation7)
@@ -126,10 +132,10 @@ template <typename Function> double integral(const Function &f, double lo, doubl
 TEST(Adhesive, EnergyIsTheIntegralOfTheForce)
 {
   const Scaled scaled;
-  const TipContact &tip = scaled.tip;
+  const JkrContact &tip = scaled.tip;
   for (double h : {-0.27, -0.1, 0.0, 1.0 / 3, 1.0, 5.0}) {
-    const double expected =
-        integral([&](double s) { return tip.force(s); }, tip.separation(), h * scaled.delta0);
+    const double expected = integral([&](double s) { return tip.force(s); },
+                                     tip.detachment_overlap(), h * scaled.delta0);
     EXPECT_NEAR(tip.energy(h * scaled.delta0) / (scaled.F0 * scaled.delta0),
                 expected / (scaled.F0 * scaled.delta0), 1e-9)
         << h;
@@ -143,7 +149,7 @@ TEST(Adhesive, StiffnessIsTheSlopeOfTheForce)
   for (double h : {-0.2, -0.1, 0.0, 1.0 / 3, 1.0, 5.0}) {
     const double at = h * scaled.delta0;
     const double slope = (scaled.tip.force(at + step) - scaled.tip.force(at - step)) / (2 * step);
-    EXPECT_NEAR(scaled.tip.stiffness(at) / slope, 1, 1e-8) << h;
+    EXPECT_NEAR(scaled.stiffness(h) * scaled.K * scaled.a0 / slope, 1, 1e-8) << h;
   }
 }
 
@@ -152,31 +158,47 @@ TEST(Adhesive, WorkPerAreaIsThatAskedFor)
   for (double sigma : {1e-6, 1e-3, 2.0})
     for (double K : {0.05, 3.0})
       for (double R : {0.05, 0.4}) {
-        const TipContact tip = TipContact::adhesive(K, sigma, R);
+        const JkrContact tip(K, sigma, R);
         const double work = integral([&](double h) { return -tip.per_area(h).traction; },
-                                     tip.separation(), tip.equilibrium());
+                                     tip.detachment_overlap(), tip.equilibrium_overlap());
         EXPECT_NEAR(work / sigma, 1, 1e-9);
-        EXPECT_NEAR(-tip.per_area(tip.equilibrium()).energy / sigma, 1, 1e-14);
+        EXPECT_NEAR(-tip.per_area(tip.equilibrium_overlap()).energy / sigma, 1, 1e-14);
       }
 }
 
 TEST(Repulsive, Hertz)
 {
   const double K = 0.07, R = 0.31;
-  const TipContact tip = TipContact::repulsive(K, R);
+  const HertzContact tip(K, R);
   for (double h : {0.01, 0.1, 0.3}) {
     const double a = std::sqrt(R * h);
     EXPECT_NEAR(tip.contact_radius(h), a, 1e-15);
     EXPECT_NEAR(tip.force(h) / (K * a * a * a / R), 1, 1e-14);
     EXPECT_NEAR(tip.energy(h) / integral([&](double s) { return tip.force(s); }, 0, h), 1, 1e-9);
-    EXPECT_NEAR(tip.stiffness(h) / (1.5 * K * a), 1, 1e-14);
+    const double step = 1e-5 * h, slope = (tip.force(h + step) - tip.force(h - step)) / (2 * step);
+    EXPECT_NEAR(slope / (1.5 * K * a), 1, 1e-8);
     EXPECT_NEAR(tip.per_area(h).traction * pi * R * R / tip.force(h), 1, 1e-14);
     EXPECT_NEAR(tip.per_area(h).energy * pi * R * R / tip.energy(h), 1, 1e-14);
-    EXPECT_NEAR(tip.force(h) / TipContact::adhesive(K, 1e-14, R).force(h), 1, 1e-5);
+    EXPECT_NEAR(tip.force(h) / JkrContact(K, 1e-14, R).force(h), 1, 1e-5);
   }
   EXPECT_EQ(tip.force(-0.01), 0);
   EXPECT_EQ(tip.energy(-0.01), 0);
-  EXPECT_EQ(tip.separation(), 0);
+  EXPECT_EQ(tip.detachment_overlap(), 0);
+}
+
+/// A law that is named in input scripts is made from the values given there, in their order.
+TEST(ContactLaws, TableMakesTheLawOfAName)
+{
+  using rbc::ContactLaw;
+  EXPECT_EQ(rbc::law_names<ContactLaw>(), "adhesive, repulsive");
+  EXPECT_EQ(rbc::parameter_names<ContactLaw>(), (std::vector<std::string>{"K", "sigma", "R"}));
+  const auto force = [](const ContactLaw &made) {
+    return std::visit([](const auto &law) { return law.force(0.1); }, made);
+  };
+  EXPECT_EQ(force(rbc::make_law<ContactLaw>(0, {0.07, 0.0013, 0.31})),
+            JkrContact(0.07, 0.0013, 0.31).force(0.1));
+  EXPECT_EQ(force(rbc::make_law<ContactLaw>(1, {0.07, 0.31})), HertzContact(0.07, 0.31).force(0.1));
+  EXPECT_THROW(rbc::make_law<ContactLaw>(2, {}), std::bad_variant_access);
 }
 
 }    // namespace

@@ -1,4 +1,4 @@
-#include "vessel/surface_joints.h"
+#include "vessel/mesh_connectivity.h"
 
 #include "geometry/point_bins.h"
 
@@ -28,7 +28,7 @@ std::string text(const Vec3 &x)
 
 }    // namespace
 
-SurfaceJoints::SurfaceJoints(std::vector<Triangle> &triangles, const PackingBox &box)
+MeshConnectivity::MeshConnectivity(std::vector<Triangle> &triangles, const PackingBox &box)
 {
   weld(triangles);
   const auto ends = join();
@@ -37,14 +37,14 @@ SurfaceJoints::SurfaceJoints(std::vector<Triangle> &triangles, const PackingBox 
     for (int c = 0; c < 3; ++c) triangles[t][c] = places_[corners_[t][c]];
 }
 
-std::string SurfaceJoints::name(const Edge &edge) const
+std::string MeshConnectivity::name(const Edge &edge) const
 {
   return "the edge from " + text(places_[edge.first]) + " to " + text(places_[edge.second]);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void SurfaceJoints::weld(std::vector<Triangle> &triangles)
+void MeshConnectivity::weld(std::vector<Triangle> &triangles)
 {
   require(!triangles.empty(), "there are no triangles");
   Vec3 lo = triangles[0][0], hi = lo;
@@ -83,7 +83,7 @@ void SurfaceJoints::weld(std::vector<Triangle> &triangles)
    triangles that share an edge; returns edges of one triangle
 ------------------------------------------------------------------------- */
 
-std::map<SurfaceJoints::Edge, SurfaceJoints::Place> SurfaceJoints::join()
+std::map<MeshConnectivity::Edge, MeshConnectivity::Place> MeshConnectivity::join()
 {
   std::map<Edge, Place> left;    // the triangle to the left of each directed edge
   for (int t = 0; t < static_cast<int>(corners_.size()); ++t)
@@ -95,14 +95,14 @@ std::map<SurfaceJoints::Edge, SurfaceJoints::Place> SurfaceJoints::join()
       throw std::invalid_argument("the triangles on both sides of " + name(edge) +
                                   " are not oriented alike");
     }
-  neighbours_.resize(corners_.size());
+  neighbors_.resize(corners_.size());
   std::map<Edge, Place> ends;
   for (const auto &[edge, place] : left) {
     const auto other = left.find({edge.second, edge.first});
     if (other == left.end())
       ends.emplace(edge, place);
     else
-      neighbours_[place.first][place.second] = other->second.first;
+      neighbors_[place.first][place.second] = other->second.first;
   }
   return ends;
 }
@@ -111,7 +111,7 @@ std::map<SurfaceJoints::Edge, SurfaceJoints::Place> SurfaceJoints::join()
    joins the ends of the surface on opposite faces
 ------------------------------------------------------------------------- */
 
-void SurfaceJoints::close(const std::map<Edge, Place> &ends, PackingBox box)
+void MeshConnectivity::close(const std::map<Edge, Place> &ends, PackingBox box)
 {
   twins_.resize(vertices());
   for (int v = 0; v < vertices(); ++v) twins_[v] = v;
@@ -162,7 +162,7 @@ void SurfaceJoints::close(const std::map<Edge, Place> &ends, PackingBox box)
             name(edge) +
                 " lies on a periodic face of the box, where the surface goes on behind the "
                 "face opposite, but has no counterpart there");
-    neighbours_[place.first][place.second] = other->second.first;
+    neighbors_[place.first][place.second] = other->second.first;
   }
 }
 
