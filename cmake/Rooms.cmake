@@ -6,6 +6,10 @@ function(rbc_room name folder)
   set(view ${PROJECT_BINARY_DIR}/rooms/${name})
   file(MAKE_DIRECTORY ${view})
   file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${folder} ${view}/${name} SYMBOLIC)
+  # messages name a header by its place in the source
+  get_filename_component(parent ${folder} DIRECTORY)
+  target_compile_options(rbc_flags INTERFACE
+    "-fmacro-prefix-map=${view}/=${parent}/")
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
   if(sources)
     add_library(room_${name} STATIC ${sources})

@@ -6,6 +6,7 @@
 #include "error.h"
 #include "memory.h"
 #include "neighbor.h"
+#include "support/rbc_arguments.h"
 #include "support/rbc_gather.h"
 #include "update.h"
 
@@ -25,22 +26,15 @@ ComputeRBCAggregate::ComputeRBCAggregate(LAMMPS *lmp, int narg, char **arg) :
     Compute(lmp, narg, arg), cells(lmp, fmt::format("Compute rbc/aggregate {}", id)),
     near(lmp, fmt::format("Compute rbc/aggregate {}", id))
 {
-  if (narg < 4) utils::missing_cmd_args(FLERR, "compute rbc/aggregate", error);
-  gap = utils::numeric(FLERR, arg[3], false, lmp);
-  if (gap <= 0) error->all(FLERR, 3, "Compute rbc/aggregate gap {} must be > 0", arg[3]);
-
-  for (int iarg = 4; iarg < narg; iarg += 2) {
-    const std::string keyword = arg[iarg];
-    if (keyword != "area")
-      error->all(FLERR, iarg, "Unknown compute rbc/aggregate keyword {}; allowed: area", keyword);
-    if (iarg + 1 >= narg) utils::missing_cmd_args(FLERR, "compute rbc/aggregate area", error);
-    least_share = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
-    if (least_share <= 0 || least_share > 1)
-      error->all(FLERR, iarg + 1,
-                 "Compute rbc/aggregate area {} must be a share of a cell's surface, above 0 and "
-                 "at most 1",
-                 arg[iarg + 1]);
-  }
+  Arguments args(lmp, "compute rbc/aggregate", narg, arg, 3);
+  gap = args.positive("gap");
+  args.read({{"area", [&] {
+                least_share = args.number();
+                if (!(least_share > 0 && least_share <= 1))
+                  args.fail("Compute rbc/aggregate area {} must be a share of a cell's surface, "
+                            "above 0 and at most 1",
+                            least_share);
+              }}});
 
   peratom_flag = 1;
   size_peratom_cols = 0;

@@ -3,6 +3,7 @@
 #include "atom.h"
 #include "cells/rbc_cell_membranes.h"
 #include "comm.h"
+#include "coupling/rbc_kernel_words.h"
 #include "coupling/rbc_wall_group.h"
 #include "error.h"
 #include "fix_rbc_fluid.h"
@@ -23,6 +24,8 @@ using namespace FixConst;
 // numbers in restart files
 
 static constexpr int NSTATE = 2 + TimeSteps::NSTATE;
+
+static const char *const DEFAULT_INTEGRATOR = "midpoint";
 
 /* ---------------------------------------------------------------------- */
 
@@ -46,129 +49,81 @@ FixRBCIB::FixRBCIB(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), cos
 
 void FixRBCIB::parse(int narg, char **arg)
 {
-  ImmersedMarkers::Settings markers_settings;
+  ImmersedMarkers::Settings of_markers;
   rbc::IntegratorOptions options;
-  const rbc::IntegratorKind *integrator = find_integrator("midpoint");
-  double error_bound = 0, largest_dt = 0;
-  double tolerance = 1e-4;
+  const rbc::IntegratorKind *integrator = nullptr;
+  double error_bound = 0, largest_dt = 0, tolerance = 1e-4;
   int max_solves = 100;
-  int iarg = 4;
-  const auto need = [&](int n, const std::string &keyword) {
-    if (iarg + n >= narg) utils::missing_cmd_args(FLERR, "fix rbc/ib " + keyword, error);
-  };
-  const auto positive = [&](int at, const std::string &name) {
-    const double value = utils::numeric(FLERR, arg[at], false, lmp);
-    if (!(value > 0)) error->all(FLERR, at, "Fix rbc/ib {} value {} must be > 0", name, arg[at]);
-    return value;
-  };
-  while (iarg < narg) {
-    const std::string keyword = arg[iarg];
-    need(1, keyword);
-    const std::string value = arg[iarg + 1];
-    if (keyword == "kernel") {
-      if (value == "peskin4")
-        markers_settings.kernel = fluid::KernelKind::peskin4;
-      else if (value == "roma3")
-        markers_settings.kernel = fluid::KernelKind::roma3;
-      else
-        error->all(FLERR, iarg + 1, "Unknown fix rbc/ib kernel {}; allowed: peskin4, roma3", value);
-    } else if (keyword == "integrator") {
-      integrator = find_integrator(value);
-      if (!integrator)
-        error->all(FLERR, iarg + 1, "Unknown fix rbc/ib integrator {}; allowed: {}", value,
-                   integrator_words());
-      if (integrator->takes_options) {
-        need(2, "integrator " + value);
-        options.stages = parse_stages(iarg + 2, arg[iarg + 2]);
-        ++iarg;
-      }
-    } else if (keyword == "scheme") {
-      if (value == "elastic")
-        direct = false;
-      else if (value == "direct")
-        direct = true;
-      else
-        error->all(FLERR, iarg + 1, "Unknown fix rbc/ib scheme {}; allowed: elastic, direct",
-                   value);
-    } else if (keyword == "tol") {
-      tolerance = utils::numeric(FLERR, value, false, lmp);
-      if (!(tolerance > 0 && tolerance < 1))
-        error->all(FLERR, iarg + 1, "Fix rbc/ib tol value {} must be between 0 and 1", value);
-      iterates = true;
-    } else if (keyword == "maxiter") {
-      max_solves = utils::inumeric(FLERR, value, false, lmp);
-      if (max_solves < 1)
-        error->all(FLERR, iarg + 1, "Fix rbc/ib maxiter value {} must be > 0", value);
-      iterates = true;
-    } else if (keyword == "order") {
-      options.order = utils::inumeric(FLERR, value, false, lmp);
-      if (options.order != 2 && options.order != 3)
-        error->all(FLERR, iarg + 1, "Fix rbc/ib order value {} must be 2 or 3", value);
-    } else if (keyword == "sheets")
-      sheets = utils::logical(FLERR, value, false, lmp) == 1 ? Sheets::YES : Sheets::NO;
-    else if (keyword == "courant")
-      markers_settings.courant = positive(iarg + 1, keyword);
-    else if (keyword == "adapt") {
-      need(2, keyword);
-      error_bound = positive(iarg + 1, "adapt error");
-      largest_dt = positive(iarg + 2, "adapt largest timestep");
-      ++iarg;
-    } else
-      error->all(FLERR, iarg,
-                 "Unknown fix rbc/ib keyword {}; allowed: kernel, scheme, integrator, order, tol, "
-                 "maxiter, courant, adapt, sheets",
-                 keyword);
-    iarg += 2;
+  Arguments::Choices<const rbc::IntegratorKind *> integrators;
+  for (const rbc::IntegratorKind &kind : rbc::integrator_kinds) {
+    integrators.emplace_back(kind.word, &kind);
+    if (std::string(kind.word) == DEFAULT_INTEGRATOR) integrator = &kind;
   }
+
+  Arguments args(lmp, "fix rbc/ib", narg, arg, 4);
+  args.read({{"kernel", [&] { of_markers.kernel = args.choice(kernel_words); }},
+             {"scheme",
+              [&] {
+                direct = args.choice<bool>({{"elastic", false}, {"direct", true}});
+              }},
+             {"integrator",
+              [&] {
+                integrator = args.choice(integrators);
+                if (!integrator->takes_options) return;
+                args.enter(integrator->word);
+                options.stages = read_stages(args);
+              }},
+             {"order", [&] { options.order = args.whole(2, 3); }},
+             {"tol",
+              [&] {
+                tolerance = args.between(0, 1);
+                iterates = true;
+              }},
+             {"maxiter",
+              [&] {
+                max_solves = args.whole(1, MAXSMALLINT);
+                iterates = true;
+              }},
+             {"courant", [&] { of_markers.courant = args.positive(); }},
+             {"adapt",
+              [&] {
+                error_bound = args.positive("adapt error");
+                largest_dt = args.positive("adapt largest timestep");
+              }},
+             {"sheets", [&] { sheets = args.logical() ? Sheets::YES : Sheets::NO; }}});
   if (options.order > 2 && !integrator->takes_options)
     error->all(FLERR, "Fix rbc/ib order {} needs integrator rkc", options.order);
   if (sheets == Sheets::YES && direct)
     error->all(FLERR, "Fix rbc/ib sheets yes needs scheme elastic");
 
-  const std::string style = fmt::format("Fix rbc/ib {}", id);
-  markers_settings.timestep_follows = error_bound > 0;
-  markers = std::make_unique<ImmersedMarkers>(lmp, style, groupbit, markers_settings);
-  markers->viscosity().choose(tolerance, max_solves);
-  courant = markers_settings.courant;
+  of_markers.timestep_follows = error_bound > 0;
+  courant = of_markers.courant;
   most_solves = max_solves;
+  integrator_code = integrator->code;
+  const std::string style = fmt::format("Fix rbc/ib {}", id);
+  markers = std::make_unique<ImmersedMarkers>(lmp, style, groupbit, of_markers);
+  markers->viscosity().choose(tolerance, max_solves);
   steps = std::make_unique<TimeSteps>(lmp, style, *markers, integrator->make(options), error_bound,
                                       largest_dt);
-  integrator_code = integrator->code;
   if (!direct) return;
   masses = std::make_unique<MassiveMarkers>(lmp);
   masses->choose(tolerance, max_solves);
   markers->set_masses(masses.get());
 }
 
-/* ---------------------------------------------------------------------- */
-
-const rbc::IntegratorKind *FixRBCIB::find_integrator(const std::string &word)
-{
-  for (const rbc::IntegratorKind &kind : rbc::integrator_kinds)
-    if (word == kind.word) return &kind;
-  return nullptr;
-}
-
-std::string FixRBCIB::integrator_words()
-{
-  std::vector<std::string> words;
-  for (const rbc::IntegratorKind &kind : rbc::integrator_kinds) words.emplace_back(kind.word);
-  return utils::join_words(words, ", ");
-}
-
 /* ----------------------------------------------------------------------
    0 for auto
 ------------------------------------------------------------------------- */
 
-int FixRBCIB::parse_stages(int iarg, const char *word)
+int FixRBCIB::read_stages(Arguments &args) const
 {
-  if (strcmp(word, "auto") == 0) return 0;
-  const int stages = utils::inumeric(FLERR, word, false, lmp);
+  if (args.take("auto")) return 0;
   constexpr int least = rbc::ChebyshevMethod::LEAST_STAGES,
                 most = rbc::ChebyshevMethod::MOST_STAGES;
+  const std::string word = args.text();
+  const int stages = utils::is_integer(word) ? utils::inumeric(FLERR, word, false, lmp) : 0;
   if (stages < least || stages > most)
-    error->all(FLERR, iarg, "Fix rbc/ib rkc stages {} must be auto or from {} to {}", word, least,
-               most);
+    args.fail("Fix rbc/ib rkc stages {} must be auto or from {} to {}", word, least, most);
   return stages;
 }
 

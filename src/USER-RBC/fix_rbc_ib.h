@@ -17,10 +17,6 @@ FixStyle(rbc/ib,FixRBCIB);
 #include <string>
 #include <vector>
 
-namespace rbc {
-struct IntegratorKind;
-}
-
 namespace LAMMPS_NS {
 
 /// Moves atoms with a fluid that their forces drive: arguments, checks, output and LAMMPS's hooks.
@@ -68,9 +64,7 @@ class FixRBCIB : public Fix, public FluidClient {
   class FixStoreAtom *store = nullptr;    // numbers kept for each atom
 
   void parse(int, char **);
-  static const rbc::IntegratorKind *find_integrator(const std::string &);
-  static std::string integrator_words();
-  int parse_stages(int, const char *);
+  int read_stages(class Arguments &) const;
   int stored() const;
   std::vector<FluidClient *> clients() const;
   void check_run() const;

@@ -10,6 +10,7 @@
 #include "modify.h"
 #include "neighbor.h"
 #include "pair.h"
+#include "support/rbc_arguments.h"
 #include "update.h"
 
 #include <algorithm>
@@ -41,140 +42,132 @@ MembraneSettings FixRBCMembrane::parse(int narg, char **arg)
   if (narg < 5) utils::missing_cmd_args(FLERR, "fix rbc/membrane", error);
   MembraneSettings settings;
   settings.surface = make_cell_template(lmp, arg[3], "fix rbc/membrane");
-  rbc::MembraneParameters &parameters = settings.elastic;
-  rbc::SurfaceViscosity &viscosity = settings.viscosity;
-  Swelling &swelling = settings.swelling;
-  int iarg = 4;
-  const auto need = [&](int n, const std::string &keyword) {
-    if (iarg + n >= narg) utils::missing_cmd_args(FLERR, "fix rbc/membrane " + keyword, error);
-  };
-  const auto not_negative = [&](int at, const std::string &name) {
-    const double value = utils::numeric(FLERR, arg[at], false, lmp);
-    if (!(value >= 0))
-      error->all(FLERR, at, "Fix rbc/membrane {} value {} must be >= 0", name, arg[at]);
-    return value;
-  };
-  const auto positive = [&](int at, const std::string &name) {
-    const double value = not_negative(at, name);
-    if (value == 0)
-      error->all(FLERR, at, "Fix rbc/membrane {} value {} must be > 0", name, arg[at]);
-    return value;
-  };
+  rbc::MembraneParameters &elastic = settings.elastic;
 
-  const std::string law = arg[iarg];
-  const std::size_t index = rbc::law_index<rbc::SheetLaw>(law);
-  if (index == std::variant_size_v<rbc::SheetLaw>)
-    error->all(FLERR, iarg, "Unknown fix rbc/membrane law {}; allowed: {}", law,
-               rbc::law_names<rbc::SheetLaw>());
-  const auto law_parameters = rbc::law_parameters<rbc::SheetLaw>(index);
-  need(static_cast<int>(law_parameters.size()), law);
-  std::vector<double> values;
-  for (const rbc::LawParameter &parameter : law_parameters) {
-    const std::string name = law + ' ' + parameter.name;
-    ++iarg;
-    values.push_back(parameter.bound == rbc::Bound::positive ? positive(iarg, name)
-                                                             : not_negative(iarg, name));
-  }
-  ++iarg;
-  parameters.law = rbc::make_law<rbc::SheetLaw>(index, values);
-
-  while (iarg < narg) {
-    const std::string keyword = arg[iarg];
-    if (keyword == "bending") {
-      need(1, keyword);
-      parameters.bending = not_negative(iarg + 1, keyword);
-      iarg += 2;
-      bool curved = false, formed = false;
-      for (; iarg < narg; ++iarg) {
-        const std::string value = arg[iarg];
-        const bool is_form = value == "helfrich" || value == "dihedral";
-        if (!is_form && value != "reference" && !utils::is_double(value)) break;
-        if (is_form ? formed : curved)
-          error->all(
-              FLERR, iarg,
-              "Fix rbc/membrane bending value {} is one too many: allowed are one of reference "
-              "or c0, and one of helfrich or dihedral",
-              value);
-        (is_form ? formed : curved) = true;
-        if (is_form)
-          parameters.bending_form =
-              value == "dihedral" ? rbc::BendingForm::dihedral : rbc::BendingForm::helfrich;
-        else if (value != "reference") {
-          parameters.reference_curvature = false;
-          parameters.spontaneous_curvature = utils::numeric(FLERR, arg[iarg], false, lmp);
-        }
-      }
-    } else if (keyword == "crease") {
-      need(2, keyword);
-      parameters.crease.stiffness = not_negative(iarg + 1, "crease k");
-      const double angle = positive(iarg + 2, "crease angle");
-      if (angle >= 180)
-        error->all(FLERR, iarg + 2,
-                   "Fix rbc/membrane crease angle value {} must be below 180 degrees",
-                   arg[iarg + 2]);
-      parameters.crease.cosine = cos(angle * MathConst::DEG2RAD);
-      iarg += 3;
-    } else if (keyword == "stretch") {
-      need(2, keyword);
-      parameters.stretch.stiffness = not_negative(iarg + 1, "stretch k");
-      const double stretch = positive(iarg + 2, "stretch lambda");
-      if (stretch <= 1)
-        error->all(FLERR, iarg + 2, "Fix rbc/membrane stretch lambda value {} must be above 1",
-                   arg[iarg + 2]);
-      parameters.stretch.i1 = stretch * stretch + 1 / (stretch * stretch);
-      iarg += 3;
-    } else if (keyword == "area") {
-      need(2, keyword);
-      parameters.global_area = not_negative(iarg + 1, "area kglobal");
-      parameters.local_area = not_negative(iarg + 2, "area klocal");
-      iarg += 3;
-    } else if (keyword == "volume") {
-      need(1, keyword);
-      const std::string value = arg[iarg + 1];
-      settings.volume_kept = value == "yes";
-      parameters.volume = 0;
-      if (value != "yes" && value != "no") {
-        if (!utils::is_double(value))
-          error->all(FLERR, iarg + 1,
-                     "Fix rbc/membrane volume value {} must be yes, no or a modulus", value);
-        parameters.volume = not_negative(iarg + 1, keyword);
-      }
-      iarg += 2;
-    } else if (keyword == "viscosity") {
-      need(1, keyword);
-      const double at_rest = not_negative(iarg + 1, keyword);
-      viscosity = at_rest;
-      iarg += 2;
-      if (iarg < narg && strcmp(arg[iarg], "thinning") == 0) {
-        need(2, "viscosity thinning");
-        const double fast = not_negative(iarg + 1, "viscosity thinning eta_inf");
-        if (fast > at_rest)
-          error->all(FLERR, iarg + 1,
-                     "Fix rbc/membrane viscosity thinning eta_inf value {} must be <= eta_m, {}",
-                     arg[iarg + 1], arg[iarg - 1]);
-        viscosity = {at_rest, fast, positive(iarg + 2, "viscosity thinning rate")};
-        iarg += 3;
-      }
-    } else if (keyword == "swell") {
-      need(1, keyword);
-      swelling = Swelling(lmp, arg[iarg + 1]);
-      if (!swelling.varies()) positive(iarg + 1, keyword);
-      iarg += 2;
-    } else if (keyword == "stress-free") {
-      need(1, keyword);
-      take_stress_free_shape(lmp, *settings.surface, arg[3], arg[iarg + 1], "fix rbc/membrane");
-      iarg += 2;
-    } else
-      error->all(FLERR, iarg,
-                 "Unknown fix rbc/membrane keyword {}; allowed: bending, area, volume, swell, "
-                 "stress-free, viscosity, crease, stretch",
-                 keyword);
-  }
-  if (parameters.crease.stiffness > 0 && parameters.bending == 0)
-    error->all(FLERR, "Fix rbc/membrane crease needs a bending modulus > 0");
-  if ((swelling.varies() || swelling.now() != 1) && !settings.volume_kept && parameters.volume == 0)
-    error->all(FLERR, "Fix rbc/membrane swell needs volume yes or a modulus of the volume");
+  Arguments args(lmp, "fix rbc/membrane", narg, arg, 4);
+  elastic.law = read_law(args);
+  args.read(
+      {{"bending", [&] { read_bending(args, elastic); }},
+       {"area",
+        [&] {
+          elastic.global_area = args.not_negative("area kglobal");
+          elastic.local_area = args.not_negative("area klocal");
+        }},
+       {"volume", [&] { read_volume(args, settings); }},
+       {"swell",
+        [&] {
+          settings.swelling = Swelling(args.number_or_variable(), lmp);
+          if (!(settings.swelling.varies() || settings.swelling.now() > 0))
+            args.fail("Fix rbc/membrane swell value {} must be > 0", settings.swelling.now());
+        }},
+       {"stress-free",
+        [&] {
+          take_stress_free_shape(lmp, *settings.surface, arg[3], args.text(), "fix rbc/membrane");
+        }},
+       {"viscosity", [&] { settings.viscosity = read_viscosity(args); }},
+       {"crease",
+        [&] {
+          elastic.crease.stiffness = args.not_negative("crease k");
+          const double angle = args.positive("crease angle");
+          if (angle >= 180)
+            args.fail("Fix rbc/membrane crease angle value {} must be below 180 degrees", angle);
+          elastic.crease.cosine = cos(angle * MathConst::DEG2RAD);
+        }},
+       {"stretch", [&] {
+          elastic.stretch.stiffness = args.not_negative("stretch k");
+          const double stretch = args.positive("stretch lambda");
+          if (stretch <= 1)
+            args.fail("Fix rbc/membrane stretch lambda value {} must be above 1", stretch);
+          elastic.stretch.i1 = stretch * stretch + 1 / (stretch * stretch);
+        }}});
+  check_settings(settings);
   return settings;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCMembrane::check_settings(const MembraneSettings &settings) const
+{
+  const rbc::MembraneParameters &elastic = settings.elastic;
+  const Swelling &swelling = settings.swelling;
+  if (elastic.crease.stiffness > 0 && elastic.bending == 0)
+    error->all(FLERR, "Fix rbc/membrane crease needs a bending modulus > 0");
+  if ((swelling.varies() || swelling.now() != 1) && !settings.volume_kept && elastic.volume == 0)
+    error->all(FLERR, "Fix rbc/membrane swell needs volume yes or a modulus of the volume");
+}
+
+rbc::SheetLaw FixRBCMembrane::read_law(Arguments &args)
+{
+  const std::string word = args.text();
+  const std::size_t index = rbc::law_index<rbc::SheetLaw>(word);
+  if (index == std::variant_size_v<rbc::SheetLaw>)
+    args.fail("Unknown fix rbc/membrane law {}; allowed: {}", word,
+              rbc::law_names<rbc::SheetLaw>());
+  args.enter(word);
+  std::vector<double> values;
+  for (const rbc::LawParameter &parameter : rbc::law_parameters<rbc::SheetLaw>(index)) {
+    const std::string name = word + ' ' + parameter.name;
+    values.push_back(parameter.bound == rbc::Bound::positive ? args.positive(name)
+                                                             : args.not_negative(name));
+  }
+  return rbc::make_law<rbc::SheetLaw>(index, values);
+}
+
+/* ----------------------------------------------------------------------
+   a modulus, then one of reference or c0 and one of helfrich or dihedral, in any order
+------------------------------------------------------------------------- */
+
+void FixRBCMembrane::read_bending(Arguments &args, rbc::MembraneParameters &elastic)
+{
+  elastic.bending = args.not_negative();
+  bool curved = false, formed = false;
+  const auto once = [&](bool &given) {
+    if (given)
+      args.fail("Fix rbc/membrane bending has a value too many: allowed are one of reference or "
+                "c0, and one of helfrich or dihedral");
+    given = true;
+  };
+  while (true) {
+    if (args.take("helfrich")) {
+      once(formed);
+      elastic.bending_form = rbc::BendingForm::helfrich;
+    } else if (args.take("dihedral")) {
+      once(formed);
+      elastic.bending_form = rbc::BendingForm::dihedral;
+    } else if (args.take("reference"))
+      once(curved);
+    else if (args.next_is_number()) {
+      elastic.spontaneous_curvature = args.number();
+      once(curved);
+      elastic.reference_curvature = false;
+    } else
+      return;
+  }
+}
+
+void FixRBCMembrane::read_volume(Arguments &args, MembraneSettings &settings)
+{
+  settings.elastic.volume = 0;
+  settings.volume_kept = args.take("yes");
+  if (settings.volume_kept || args.take("no")) return;
+  if (args.next_is_number()) {
+    settings.elastic.volume = args.not_negative();
+    return;
+  }
+  const std::string value = args.text();
+  args.fail("Fix rbc/membrane volume value {} must be yes, no or a modulus", value);
+}
+
+rbc::SurfaceViscosity FixRBCMembrane::read_viscosity(Arguments &args)
+{
+  const double at_rest = args.not_negative();
+  if (!args.take("thinning")) return at_rest;
+  args.enter("thinning");
+  const double fast = args.not_negative("viscosity thinning eta_inf");
+  if (fast > at_rest)
+    args.fail("Fix rbc/membrane viscosity thinning eta_inf value {} must be <= eta_m, {}", fast,
+              at_rest);
+  return {at_rest, fast, args.positive("viscosity thinning rate")};
 }
 
 /* ---------------------------------------------------------------------- */

@@ -38,6 +38,11 @@ class FixRBCMembrane : public Fix, public MembraneOwner {
   bigint energy_step = -1;
 
   MembraneSettings parse(int, char **);
+  void check_settings(const MembraneSettings &) const;
+  rbc::SheetLaw read_law(class Arguments &);
+  void read_bending(Arguments &, rbc::MembraneParameters &);
+  void read_volume(Arguments &, MembraneSettings &);
+  rbc::SurfaceViscosity read_viscosity(Arguments &);
   void check_apart() const;
   void ask_for_ghosts();
   const rbc::MembraneEnergy &total_energy();

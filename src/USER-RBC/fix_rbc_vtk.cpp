@@ -10,6 +10,7 @@
 #include "membrane/membrane_tension.h"
 #include "modify.h"
 #include "output/vtp_writer.h"
+#include "support/rbc_arguments.h"
 #include "update.h"
 
 #include <algorithm>
@@ -40,29 +41,16 @@ struct FixRBCVTK::Vertex {
 
 FixRBCVTK::FixRBCVTK(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
 {
-  if (narg < 5) utils::missing_cmd_args(FLERR, "fix rbc/vtk", error);
-  nevery = utils::inumeric(FLERR, arg[3], false, lmp);
-  if (nevery <= 0) error->all(FLERR, 3, "Fix rbc/vtk N value {} must be > 0", arg[3]);
-
-  file = arg[4];
+  Arguments args(lmp, "fix rbc/vtk", narg, arg, 3);
+  nevery = args.whole(1, MAXSMALLINT, "N");
+  file = args.text();
   pieces = utils::strmatch(file, "\\.pvtp$");
   if (!pieces && !utils::strmatch(file, "\\.vtp$"))
-    error->all(FLERR, 4, "Fix rbc/vtk file name {} must end in .vtp or .pvtp", file);
+    args.fail("Fix rbc/vtk file name {} must end in .vtp or .pvtp", file);
   if (file.find('*') == std::string::npos)
-    error->all(FLERR, 4, "Fix rbc/vtk file name {} must contain a *, which stands for the step",
-               file);
-
-  for (int iarg = 5; iarg < narg; iarg += 2) {
-    const std::string keyword = arg[iarg];
-    if (keyword != "unwrap" && keyword != "aggregate")
-      error->all(FLERR, iarg, "Unknown fix rbc/vtk keyword {}; allowed: unwrap, aggregate",
-                 keyword);
-    if (iarg + 1 >= narg) utils::missing_cmd_args(FLERR, "fix rbc/vtk " + keyword, error);
-    if (keyword == "unwrap")
-      unwrap = utils::logical(FLERR, arg[iarg + 1], false, lmp);
-    else
-      aggregate_id = arg[iarg + 1];
-  }
+    args.fail("Fix rbc/vtk file name {} must contain a *, which stands for the step", file);
+  args.read({{"unwrap", [&] { unwrap = args.logical(); }},
+             {"aggregate", [&] { aggregate_id = args.text(); }}});
 }
 
 /* ---------------------------------------------------------------------- */

@@ -1,6 +1,7 @@
 #include "fix_rbc_wall.h"
 
 #include "atom.h"
+#include "coupling/rbc_kernel_words.h"
 #include "coupling/rbc_rigid_walls.h"
 #include "error.h"
 #include "fix_rbc_fluid.h"
@@ -44,44 +45,12 @@ FixRBCWall::~FixRBCWall()
 
 WallGroup::Settings FixRBCWall::parse(int narg, char **arg)
 {
-  if (narg < 4) utils::missing_cmd_args(FLERR, "fix rbc/wall", error);
   WallGroup::Settings settings;
-  int iarg = 4;
-  const auto need = [&](int n, const std::string &keyword) {
-    if (iarg + n >= narg) utils::missing_cmd_args(FLERR, "fix rbc/wall " + keyword, error);
-  };
-  while (iarg < narg) {
-    const std::string keyword = arg[iarg];
-    if (keyword == "velocity") {
-      need(3, keyword);
-      for (int d = 0; d < 3; ++d) settings.velocity[d] = NumberOrVariable(lmp, arg[iarg + 1 + d]);
-      iarg += 4;
-      continue;
-    }
-    need(1, keyword);
-    const char *const value = arg[iarg + 1];
-    if (keyword == "kernel") {
-      if (strcmp(value, "peskin4") == 0)
-        settings.kernel = fluid::KernelKind::peskin4;
-      else if (strcmp(value, "roma3") == 0)
-        settings.kernel = fluid::KernelKind::roma3;
-      else
-        error->all(FLERR, iarg + 1, "Unknown fix rbc/wall kernel {}; allowed: peskin4, roma3",
-                   value);
-    } else if (keyword == "tol") {
-      settings.tolerance = utils::numeric(FLERR, value, false, lmp);
-      if (!(settings.tolerance > 0 && settings.tolerance < 1))
-        error->all(FLERR, iarg + 1, "Fix rbc/wall tol value {} must be between 0 and 1", value);
-    } else if (keyword == "maxiter") {
-      settings.max_solves = utils::inumeric(FLERR, value, false, lmp);
-      if (settings.max_solves < 1)
-        error->all(FLERR, iarg + 1, "Fix rbc/wall maxiter value {} must be > 0", value);
-    } else
-      error->all(FLERR, iarg,
-                 "Unknown fix rbc/wall keyword {}; allowed: velocity, kernel, tol, maxiter",
-                 keyword);
-    iarg += 2;
-  }
+  Arguments args(lmp, "fix rbc/wall", narg, arg, 4);
+  args.read({{"velocity", [&] { settings.velocity = args.vector(); }},
+             {"kernel", [&] { settings.kernel = args.choice(kernel_words); }},
+             {"tol", [&] { settings.tolerance = args.between(0, 1); }},
+             {"maxiter", [&] { settings.max_solves = args.whole(1, MAXSMALLINT); }}});
   return settings;
 }
 

@@ -7,6 +7,7 @@
 #include "force.h"
 #include "memory.h"
 #include "neighbor.h"
+#include "support/rbc_arguments.h"
 
 #include <algorithm>
 #include <cmath>
@@ -74,17 +75,10 @@ void PairRBCJKR::report_to(const std::shared_ptr<CollectiveStop> &driver)
 
 void PairRBCJKR::settings(int narg, char **arg)
 {
-  if (narg < 1) utils::missing_cmd_args(FLERR, "pair_style rbc/jkr", error);
-  cutoff = utils::numeric(FLERR, arg[0], false, lmp);
-  if (!(cutoff > 0) || !std::isfinite(cutoff))
-    error->all(FLERR, "Pair_style rbc/jkr cutoff {} must be > 0", arg[0]);
+  Arguments args(lmp, "pair_style rbc/jkr", narg, arg);
+  cutoff = args.positive("cutoff");
   own_cells = false;
-  for (int at = 1; at < narg; at += 2) {
-    if (strcmp(arg[at], "self") != 0)
-      error->all(FLERR, at, "Unknown pair_style rbc/jkr keyword {}; allowed: self", arg[at]);
-    if (at + 1 == narg) utils::missing_cmd_args(FLERR, "pair_style rbc/jkr self", error);
-    own_cells = utils::logical(FLERR, arg[at + 1], false, lmp);
-  }
+  args.read({{"self", [&] { own_cells = args.logical(); }}});
 }
 
 /* ---------------------------------------------------------------------- */
@@ -131,15 +125,11 @@ std::size_t PairRBCJKR::read_law(int narg, char **arg, std::vector<double> &give
     error->all(FLERR, "Pair_coeff rbc/jkr {} takes {} values ({}), not {}", word, needed.size(),
                needed.empty() ? "none" : list, narg - 3);
   }
-  int at = 3;
+  Arguments args(lmp, "pair_coeff rbc/jkr", narg, arg, 3);
   for (const auto &[name, bound] : needed) {
-    const double value = utils::numeric(FLERR, arg[at], false, lmp);
-    const bool positive = bound == rbc::Bound::positive;
-    if (!(positive ? value > 0 : value >= 0) || !std::isfinite(value))
-      error->all(FLERR, at, "Pair_coeff rbc/jkr {} {} value {} must be {} 0", word, name, arg[at],
-                 positive ? ">" : ">=");
-    given[place_of(name)] = value;
-    ++at;
+    const std::string what = word + ' ' + name;
+    given[place_of(name)] =
+        bound == rbc::Bound::positive ? args.positive(what) : args.not_negative(what);
   }
   return law;
 }

@@ -10,6 +10,7 @@
 #include "packing/cell_packing.h"
 #include "random_park.h"
 #include "region.h"
+#include "support/rbc_arguments.h"
 #include "support/rbc_gather.h"
 #include "support/rbc_new_atoms.h"
 
@@ -50,107 +51,40 @@ void RBCCreate::parse(int narg, char **arg)
   if (narg < 3) utils::missing_cmd_args(FLERR, "rbc/create", error);
   kinds.push_back({arg[0], make_cell_template(lmp, arg[0], "rbc/create"), 1, 1, 1});
 
-  int iarg = 1;
-  const auto need = [&](int n, const std::string &keyword) {
-    if (iarg + n >= narg) utils::missing_cmd_args(FLERR, "rbc/create " + keyword, error);
-  };
-  const auto number = [&](int at) { return utils::numeric(FLERR, arg[at], false, lmp); };
-  const auto atom_type = [&](int at) {
-    const int type = utils::inumeric(FLERR, arg[at], false, lmp);
-    if (type < 1 || type > atom->ntypes)
-      error->all(FLERR, at, "Rbc/create type {} must be between 1 and {}", type, atom->ntypes);
-    return type;
-  };
   bool placement = false, seeded = false;
-  while (iarg < narg) {
-    const std::string keyword = arg[iarg];
-    if (keyword == "single" || keyword == "number" || keyword == "hematocrit") {
-      if (placement)
-        error->all(FLERR, iarg, "Rbc/create takes only one of single, number and hematocrit");
-      placement = true;
-    }
-    if (keyword == "single") {
-      need(3, keyword);
-      single = true;
-      centre = {number(iarg + 1), number(iarg + 2), number(iarg + 3)};
-      iarg += 4;
-    } else if (keyword == "rotate") {
-      need(4, keyword);
-      if (!single)
-        error->all(FLERR, iarg,
-                   "Rbc/create rotate belongs to single: other cells are turned at random");
-      const Vec3 axis(number(iarg + 2), number(iarg + 3), number(iarg + 4));
-      if (axis.norm() == 0) error->all(FLERR, iarg + 2, "Rbc/create rotate axis must not be 0 0 0");
-      rotation = Eigen::AngleAxisd(number(iarg + 1) * MathConst::DEG2RAD, axis.normalized())
-                     .toRotationMatrix();
-      iarg += 5;
-    } else if (keyword == "number") {
-      need(1, keyword);
-      wanted = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
-      if (wanted < 1) error->all(FLERR, iarg + 1, "Rbc/create number {} must be > 0", wanted);
-      iarg += 2;
-    } else if (keyword == "hematocrit") {
-      need(1, keyword);
-      hematocrit = number(iarg + 1);
-      if (hematocrit <= 0 || hematocrit >= 1)
-        error->all(FLERR, iarg + 1, "Rbc/create hematocrit {} must be between 0 and 1",
-                   arg[iarg + 1]);
-      iarg += 2;
-    } else if (keyword == "region") {
-      need(1, keyword);
-      region = domain->get_region_by_id(arg[iarg + 1]);
-      if (!region)
-        error->all(FLERR, iarg + 1, "Region ID {} for rbc/create does not exist", arg[iarg + 1]);
-      region->init();
-      region->prematch();
-      iarg += 2;
-    } else if (keyword == "seed") {
-      need(1, keyword);
-      seed = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
-      if (seed <= 0) error->all(FLERR, iarg + 1, "Rbc/create seed {} must be > 0", seed);
-      seeded = true;
-      iarg += 2;
-    } else if (keyword == "type") {
-      need(1, keyword);
-      kinds[0].type = atom_type(iarg + 1);
-      iarg += 2;
-    } else if (keyword == "mix") {
-      need(3, keyword);
-      const double fraction = number(iarg + 2);
-      if (!(fraction > 0 && fraction < 1))
-        error->all(FLERR, iarg + 2, "Rbc/create mix fraction {} must be between 0 and 1",
-                   arg[iarg + 2]);
-      kinds.push_back({arg[iarg + 1], make_cell_template(lmp, arg[iarg + 1], "rbc/create mix"),
-                       fraction, atom_type(iarg + 3), 0});
-      kinds[0].fraction -= fraction;
-      if (kinds[0].fraction < 1e-9)
-        error->all(FLERR, iarg + 2,
-                   "Rbc/create mix fractions must add up to less than 1, not {:.6g}",
-                   1 - kinds[0].fraction);
-      iarg += 4;
-    } else if (keyword == "overlap") {
-      need(1, keyword);
-      gap = number(iarg + 1);
-      if (!(gap > 0))
-        error->all(FLERR, iarg + 1, "Rbc/create overlap distance {} must be > 0", arg[iarg + 1]);
-      iarg += 2;
-    } else if (keyword == "attempts") {
-      need(1, keyword);
-      attempts = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
-      if (attempts < 1) error->all(FLERR, iarg + 1, "Rbc/create attempts {} must be > 0", attempts);
-      iarg += 2;
-    } else if (keyword == "velocity") {
-      need(1, keyword);
-      speed = number(iarg + 1);
-      if (!(speed >= 0))
-        error->all(FLERR, iarg + 1, "Rbc/create velocity {} must be >= 0", arg[iarg + 1]);
-      iarg += 2;
-    } else
-      error->all(FLERR, iarg,
-                 "Unknown rbc/create keyword {}; allowed: single, rotate, number, hematocrit, mix, "
-                 "region, seed, type, overlap, attempts, velocity",
-                 keyword);
-  }
+  Arguments args(lmp, "rbc/create", narg, arg, 1);
+  const auto place = [&] {
+    if (placement) args.fail("Rbc/create takes only one of single, number and hematocrit");
+    placement = true;
+  };
+  args.read({{"single",
+              [&] {
+                place();
+                single = true;
+                for (int d = 0; d < 3; ++d) centre[d] = args.number();
+              }},
+             {"rotate", [&] { read_rotation(args); }},
+             {"number",
+              [&] {
+                place();
+                wanted = args.whole(1, MAXSMALLINT);
+              }},
+             {"hematocrit",
+              [&] {
+                place();
+                hematocrit = args.between(0, 1);
+              }},
+             {"mix", [&] { read_mix(args); }},
+             {"region", [&] { read_region(args); }},
+             {"seed",
+              [&] {
+                seed = args.whole(1, MAXSMALLINT);
+                seeded = true;
+              }},
+             {"type", [&] { kinds[0].type = args.whole(1, atom->ntypes); }},
+             {"overlap", [&] { gap = args.positive(); }},
+             {"attempts", [&] { attempts = args.whole(1, MAXSMALLINT); }},
+             {"velocity", [&] { speed = args.not_negative(); }}});
   if (!placement) error->all(FLERR, "Rbc/create needs one of single, number and hematocrit");
   if (!single && !seeded) error->all(FLERR, "Rbc/create number and hematocrit need a seed");
   if (single && region) error->all(FLERR, "Rbc/create single takes no region");
@@ -161,6 +95,39 @@ void RBCCreate::parse(int narg, char **arg)
   if (single) return;
   set_extent();
   set_counts();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void RBCCreate::read_rotation(Arguments &args)
+{
+  if (!single) args.fail("Rbc/create rotate belongs to single: other cells are turned at random");
+  const double angle = args.number();
+  Vec3 axis;
+  for (int d = 0; d < 3; ++d) axis[d] = args.number();
+  if (axis.norm() == 0) args.fail("Rbc/create rotate axis must not be 0 0 0");
+  rotation = Eigen::AngleAxisd(angle * MathConst::DEG2RAD, axis.normalized()).toRotationMatrix();
+}
+
+void RBCCreate::read_region(Arguments &args)
+{
+  const std::string id = args.text();
+  region = domain->get_region_by_id(id);
+  if (!region) args.fail("Region ID {} for rbc/create does not exist", id);
+  region->init();
+  region->prematch();
+}
+
+void RBCCreate::read_mix(Arguments &args)
+{
+  const std::string id = args.text();
+  const double fraction = args.between(0, 1, "mix fraction");
+  kinds[0].fraction -= fraction;
+  if (kinds[0].fraction < 1e-9)
+    args.fail("Rbc/create mix fractions must add up to less than 1, not {:.6g}",
+              1 - kinds[0].fraction);
+  const int type = args.whole(1, atom->ntypes, "type");
+  kinds.push_back({id, make_cell_template(lmp, id, "rbc/create mix"), fraction, type, 0});
 }
 
 /* ----------------------------------------------------------------------

@@ -52,6 +52,9 @@ class RBCCreate : public Command {
   double speed = 0;
 
   void parse(int, char **);
+  void read_rotation(class Arguments &);
+  void read_region(Arguments &);
+  void read_mix(Arguments &);
   Cell place_single() const;
   std::vector<Cell> pack();
   std::vector<rbc::Vec3> existing_atoms() const;

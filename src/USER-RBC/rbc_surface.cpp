@@ -6,6 +6,7 @@
 #include "domain.h"
 #include "error.h"
 #include "region.h"
+#include "support/rbc_arguments.h"
 #include "support/rbc_new_atoms.h"
 #include "vessel/surface_sampling.h"
 
@@ -57,31 +58,11 @@ void RBCSurface::parse(int narg, char **arg)
   region->init();
   region->prematch();
 
-  for (int iarg = 1; iarg < narg; iarg += 2) {
-    const std::string keyword = arg[iarg];
-    if (iarg + 1 >= narg) utils::missing_cmd_args(FLERR, "rbc/surface " + keyword, error);
-    const auto number = [&] { return utils::numeric(FLERR, arg[iarg + 1], false, lmp); };
-    const auto positive = [&] {
-      const double value = number();
-      if (!(value > 0))
-        error->all(FLERR, iarg + 1, "Rbc/surface {} {} must be > 0", keyword, arg[iarg + 1]);
-      return value;
-    };
-    if (keyword == "type") {
-      type = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
-      if (type < 1 || type > atom->ntypes)
-        error->all(FLERR, iarg + 1, "Rbc/surface type {} must be between 1 and {}", type,
-                   atom->ntypes);
-    } else if (keyword == "spacing")
-      spacing = positive();
-    else if (keyword == "mass")
-      mass = positive();
-    else if (keyword == "offset")
-      offset = number();
-    else
-      error->all(FLERR, iarg,
-                 "Unknown rbc/surface keyword {}; allowed: type, spacing, offset, mass", keyword);
-  }
+  Arguments args(lmp, "rbc/surface", narg, arg, 1);
+  args.read({{"type", [&] { type = args.whole(1, atom->ntypes); }},
+             {"spacing", [&] { spacing = args.positive(); }},
+             {"offset", [&] { offset = args.number(); }},
+             {"mass", [&] { mass = args.positive(); }}});
   if (type == 0) error->all(FLERR, "Rbc/surface needs type");
   if (spacing == 0) error->all(FLERR, "Rbc/surface needs spacing");
 }

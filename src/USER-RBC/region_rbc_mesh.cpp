@@ -3,6 +3,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "support/rbc_arguments.h"
 #include "vessel/stl_file.h"
 
 #include <algorithm>
@@ -19,22 +20,12 @@ RegionRBCMesh::RegionRBCMesh(LAMMPS *lmp, int narg, char **arg) : Region(lmp, na
   if (narg < 3) utils::missing_cmd_args(FLERR, "region rbc/mesh", error);
   double scale = 1;
   Vec3 shift = Vec3::Zero();
-  int iarg = 3;
-  const auto need = [&](int n, const std::string &keyword) {
-    if (iarg + n >= narg) utils::missing_cmd_args(FLERR, "region rbc/mesh " + keyword, error);
-  };
-  for (; iarg < narg; ++iarg) {
-    const std::string keyword = arg[iarg];
-    if (keyword == "scale") {
-      need(1, keyword);
-      scale = utils::numeric(FLERR, arg[++iarg], false, lmp);
-      if (!(scale > 0)) error->all(FLERR, iarg, "Region rbc/mesh scale {} must be > 0", arg[iarg]);
-    } else if (keyword == "shift") {
-      need(3, keyword);
-      for (int d = 0; d < 3; ++d) shift[d] = utils::numeric(FLERR, arg[++iarg], false, lmp);
-    } else
-      break;
-  }
+  Arguments args(lmp, "region rbc/mesh", narg, arg, 3);
+  const int iarg =
+      args.read_known({{"scale", [&] { scale = args.positive(); }}, {"shift", [&] {
+                                                                       for (int d = 0; d < 3; ++d)
+                                                                         shift[d] = args.number();
+                                                                     }}});
   options(narg - iarg, &arg[iarg]);
   if (openflag)
     error->all(FLERR, "Region rbc/mesh takes no open faces: leave them out of the file");

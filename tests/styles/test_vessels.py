@@ -104,7 +104,7 @@ class Mesh(Case):
         self.error("lies on no periodic face", before=MESH, boundary="boundary f p p")
         self.error("lies on no periodic face", before=MESH, box="region box block 0 25 0 22 0 24")
         self.error("Region rbc/mesh takes no open faces", before=MESH + " open 1")
-        self.error("Region rbc/mesh scale -1 must be > 0", before="region tube rbc/mesh ../tube.stl scale -1")
+        self.error("Region rbc/mesh scale value -1 must be > 0", before="region tube rbc/mesh ../tube.stl scale -1")
         self.error("Illegal region rbc/mesh shift command", before="region tube rbc/mesh ../tube.stl shift 1 2")
         beyond = vessel(before="region tube rbc/mesh ../tube.stl").printed
         for way, radius_there in (("y", "9"), ("z", "8.99658")):
@@ -162,8 +162,8 @@ class Surface(Case):
                                ("tube type 3 spacing 1", "Rbc/surface type 3 must be between 1 and 2"),
                                ("tube type 2", "Rbc/surface needs spacing"),
                                ("tube spacing 1", "Rbc/surface needs type"),
-                               ("tube type 2 spacing 0", "Rbc/surface spacing 0 must be > 0"),
-                               ("tube type 2 spacing 1 mass -1", "Rbc/surface mass -1 must be > 0"),
+                               ("tube type 2 spacing 0", "Rbc/surface spacing value 0 must be > 0"),
+                               ("tube type 2 spacing 1 mass -1", "Rbc/surface mass value -1 must be > 0"),
                                ("tube type 2 spacing 1 colour", "Illegal rbc/surface colour command"),
                                ("tube type 2 spacing 1 colour red", "Unknown rbc/surface keyword colour; allowed: type"),
                                ("box type 2 spacing 1", "Rbc/surface region box has no surface in the simulation box")):

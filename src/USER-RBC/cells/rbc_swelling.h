@@ -11,7 +11,7 @@ namespace LAMMPS_NS {
 class Swelling {
  public:
   Swelling() = default;
-  Swelling(LAMMPS *lmp, const char *arg) : factor(lmp, arg)
+  Swelling(const NumberOrVariable &given, LAMMPS *lmp) : factor(given)
   {
     if (!factor.is_variable()) state.now = state.before = factor.value(lmp);
   }

@@ -4,6 +4,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fluid/fourier.h"
+#include "support/rbc_arguments.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,166 +21,113 @@ constexpr double MAX_CELLS = 0.25 * MAXSMALLINT;
 
 class Reader : protected Pointers {
  public:
-  Reader(LAMMPS *lmp, const char *id, FlowForcing &forcing) :
-      Pointers(lmp), id(id), forcing(forcing)
+  Reader(LAMMPS *lmp, int narg, char **arg, FlowForcing &forcing) :
+      Pointers(lmp), id(arg[0]), args(lmp, "fix rbc/fluid", narg, arg, 3), forcing(forcing)
   {
   }
 
   FluidSettings settings;
 
-  void parse(int narg, char **arg);
+  void read();
+  void check();
   void choose_grid();
   void check_grid() const;
 
  private:
   const char *id;
+  Arguments args;
   FlowForcing &forcing;
   double target_spacing = 0;
+  bool wall_given[2] = {false, false};
+  bool mean_given = false;
 
-  void parse_vector(int iarg, int narg, char **arg, const char *keyword,
-                    FlowForcing::Vector &vector);
+  void read_plate();
+  void read_mean();
+  void read_inside();
 };
 
 /* ---------------------------------------------------------------------- */
 
-void Reader::parse_vector(int iarg, int narg, char **arg, const char *keyword,
-                          FlowForcing::Vector &vector)
+void Reader::read()
 {
-  if (iarg + 3 > narg)
-    utils::missing_cmd_args(FLERR, std::string("fix rbc/fluid ") + keyword, error);
-  for (int d = 0; d < 3; ++d) vector[d] = NumberOrVariable(lmp, arg[iarg + d]);
+  settings.equations.viscosity = settings.equations.density = 0;
+  args.read({{"dx", [&] { target_spacing = args.positive(); }},
+             {"grid",
+              [&] {
+                for (int &cells : settings.cells) cells = args.whole(MIN_CELLS, MAXSMALLINT);
+              }},
+             {"viscosity", [&] { settings.equations.viscosity = args.positive(); }},
+             {"density", [&] { settings.equations.density = args.positive(); }},
+             {"inertia",
+              [&] {
+                settings.equations.inertia =
+                    args.choice<fluid::Inertia>({{"none", fluid::Inertia::none},
+                                                 {"unsteady", fluid::Inertia::unsteady},
+                                                 {"convective", fluid::Inertia::convective}});
+              }},
+             {"scheme",
+              [&] {
+                settings.equations.scheme =
+                    args.choice<fluid::Scheme>({{"coupled", fluid::Scheme::coupled},
+                                                {"projection", fluid::Scheme::projection}});
+              }},
+             {"wall", [&] { read_plate(); }},
+             {"body", [&] { forcing.body = args.vector(); }},
+             {"mean", [&] { read_mean(); }},
+             {"inside", [&] { read_inside(); }}});
 }
 
 /* ---------------------------------------------------------------------- */
 
-void Reader::parse(int narg, char **arg)
+void Reader::read_plate()
 {
-  bool wall_given[2] = {false, false};
-  bool mean_given = false;
-  settings.equations.viscosity = settings.equations.density = 0;
-  int iarg = 3;
-  const auto need = [&](int n, const char *keyword) {
-    if (iarg + n >= narg)
-      utils::missing_cmd_args(FLERR, std::string("fix rbc/fluid ") + keyword, error);
-  };
-  const auto positive = [&](int at, const char *keyword) {
-    const double value = utils::numeric(FLERR, arg[at], false, lmp);
-    if (!(value > 0))
-      error->all(FLERR, at, "Fix rbc/fluid {} value {} must be > 0", keyword, arg[at]);
-    return value;
-  };
+  const std::string side = args.text();
+  if (side != "zlo" && side != "zhi")
+    args.fail("Fix rbc/fluid wall side {} must be zlo or zhi", side);
+  if (domain->zperiodic)
+    args.fail("Fix rbc/fluid wall {} on a periodic side: z must be fixed (boundary p p f)", side);
+  FlowForcing::Vector &velocity = side == "zlo" ? forcing.lower : forcing.upper;
+  velocity = args.vector();
+  if (velocity[2].is_variable() || velocity[2].value(lmp) != 0)
+    args.fail("Fix rbc/fluid wall {} velocity along z must be 0: plates move along themselves",
+              side);
+  wall_given[side == "zhi"] = true;
+}
 
-  while (iarg < narg) {
-    const std::string keyword = arg[iarg];
-    if (keyword == "dx") {
-      need(1, "dx");
-      target_spacing = positive(iarg + 1, "dx");
-      iarg += 2;
-    } else if (keyword == "grid") {
-      need(3, "grid");
-      for (int d = 0; d < 3; ++d) {
-        settings.cells[d] = utils::inumeric(FLERR, arg[iarg + 1 + d], false, lmp);
-        if (settings.cells[d] < MIN_CELLS)
-          error->all(FLERR, iarg + 1 + d,
-                     "Fix rbc/fluid grid value {} must be at least {} cells in every direction",
-                     arg[iarg + 1 + d], MIN_CELLS);
-      }
-      iarg += 4;
-    } else if (keyword == "viscosity") {
-      need(1, "viscosity");
-      settings.equations.viscosity = positive(iarg + 1, "viscosity");
-      iarg += 2;
-    } else if (keyword == "density") {
-      need(1, "density");
-      settings.equations.density = positive(iarg + 1, "density");
-      iarg += 2;
-    } else if (keyword == "inertia") {
-      need(1, "inertia");
-      const std::string value = arg[iarg + 1];
-      if (value == "none")
-        settings.equations.inertia = fluid::Inertia::none;
-      else if (value == "unsteady")
-        settings.equations.inertia = fluid::Inertia::unsteady;
-      else if (value == "convective")
-        settings.equations.inertia = fluid::Inertia::convective;
-      else
-        error->all(FLERR, iarg + 1,
-                   "Unknown fix rbc/fluid inertia {}; allowed: none, unsteady, convective", value);
-      iarg += 2;
-    } else if (keyword == "scheme") {
-      need(1, "scheme");
-      const std::string value = arg[iarg + 1];
-      if (value == "coupled")
-        settings.equations.scheme = fluid::Scheme::coupled;
-      else if (value == "projection")
-        settings.equations.scheme = fluid::Scheme::projection;
-      else
-        error->all(FLERR, iarg + 1, "Unknown fix rbc/fluid scheme {}; allowed: coupled, projection",
-                   value);
-      iarg += 2;
-    } else if (keyword == "wall") {
-      need(1, "wall");
-      const std::string side = arg[iarg + 1];
-      if (side != "zlo" && side != "zhi")
-        error->all(FLERR, iarg + 1, "Fix rbc/fluid wall side {} must be zlo or zhi", side);
-      if (domain->zperiodic)
-        error->all(FLERR, iarg,
-                   "Fix rbc/fluid wall {} on a periodic side: z must be fixed (boundary p p f)",
-                   side);
-      parse_vector(iarg + 2, narg, arg, "wall", side == "zlo" ? forcing.lower : forcing.upper);
-      const NumberOrVariable &normal = (side == "zlo" ? forcing.lower : forcing.upper)[2];
-      if (normal.is_variable() || normal.value(lmp) != 0)
-        error->all(
-            FLERR, iarg + 4,
-            "Fix rbc/fluid wall {} velocity {} along z must be 0: plates move along themselves",
-            side, arg[iarg + 4]);
-      wall_given[side == "zhi"] = true;
-      iarg += 5;
-    } else if (keyword == "body") {
-      parse_vector(iarg + 1, narg, arg, "body", forcing.body);
-      iarg += 4;
-    } else if (keyword == "mean") {
-      need(1, "mean");
-      const std::string value = arg[iarg + 1];
-      if (value == "x" || value == "y" || value == "z") {
-        need(2, "mean");
-        if (value == "z" && !domain->zperiodic)
-          error->all(
-              FLERR, iarg + 1,
-              "Fix rbc/fluid mean z needs a triply periodic box: plates let no flow through");
-        forcing.hold_inside(value[0] - 'x', NumberOrVariable(lmp, arg[iarg + 2]));
-        iarg += 3;
-        continue;
-      }
-      if (!domain->zperiodic)
-        error->all(
-            FLERR, iarg,
-            "Fix rbc/fluid mean {} needs a triply periodic box: between plates the mean flow "
-            "follows from them; mean x or y V holds one by a body force",
-            value);
-      mean_given = true;
-      if (value == "force") {
-        settings.free_mean = true;
-        iarg += 2;
-      } else {
-        settings.free_mean = false;
-        parse_vector(iarg + 1, narg, arg, "mean", forcing.mean);
-        iarg += 4;
-      }
-    } else if (keyword == "inside") {
-      need(1, "inside");
-      settings.inside = arg[iarg + 1];
-      if (!domain->get_region_by_id(settings.inside))
-        error->all(FLERR, iarg + 1, "Region ID {} for fix rbc/fluid inside does not exist",
-                   settings.inside);
-      iarg += 2;
-    } else
-      error->all(FLERR, iarg,
-                 "Unknown fix rbc/fluid keyword {}; allowed: dx, grid, viscosity, density, "
-                 "inertia, scheme, wall, body, mean, inside",
-                 keyword);
+/* ----------------------------------------------------------------------
+   the mean velocity of the whole box, or the one inside a vessel along a direction
+------------------------------------------------------------------------- */
+
+void Reader::read_mean()
+{
+  for (int d = 0; d < 3; ++d) {
+    if (!args.take(std::string(1, "xyz"[d]))) continue;
+    if (d == 2 && !domain->zperiodic)
+      args.fail("Fix rbc/fluid mean z needs a triply periodic box: plates let no flow through");
+    forcing.hold_inside(d, args.number_or_variable());
+    return;
   }
+  const bool by_forces = args.take("force");
+  const FlowForcing::Vector mean = by_forces ? FlowForcing::Vector() : args.vector();
+  if (!domain->zperiodic)
+    args.fail("Fix rbc/fluid mean needs a triply periodic box: between plates the mean flow "
+              "follows from them; mean x or y V holds one by a body force");
+  settings.free_mean = by_forces;
+  mean_given = true;
+  if (!by_forces) forcing.mean = mean;
+}
 
+void Reader::read_inside()
+{
+  settings.inside = args.text();
+  if (!domain->get_region_by_id(settings.inside))
+    args.fail("Region ID {} for fix rbc/fluid inside does not exist", settings.inside);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Reader::check()
+{
   settings.plates = !domain->zperiodic;
   if (settings.plates && !(wall_given[0] && wall_given[1]))
     error->all(FLERR, "Fix rbc/fluid needs wall zlo and wall zhi where z is not periodic");
@@ -258,8 +206,9 @@ void Reader::check_grid() const
 FluidSettings LAMMPS_NS::read_fluid_settings(LAMMPS *lmp, int narg, char **arg,
                                              FlowForcing &forcing)
 {
-  Reader reader(lmp, arg[0], forcing);
-  reader.parse(narg, arg);
+  Reader reader(lmp, narg, arg, forcing);
+  reader.read();
+  reader.check();
   reader.choose_grid();
   reader.check_grid();
   return reader.settings;
