@@ -100,7 +100,8 @@ class ViscousVessel(unittest.TestCase):
     def test_ranks_agree(self):
         for case in itertools.product(DRIVES, INSIDE, INTEGRATORS, VISCOSITIES):
             with self.subTest(case):
-                (one, one_thermo), (two, two_thermo) = (self.result(*case, ranks) for ranks in (1, 2))
+                one, one_thermo = self.result(*case, 1)
+                two, two_thermo = self.result(*case, 2)
                 self.assertLess(abs(two - one).max(), 10 * TOLERANCE * abs(one).max())
                 for column in ("f_flow[13]", "f_flow[19]"):
                     np.testing.assert_allclose(two_thermo[column], one_thermo[column],
@@ -115,8 +116,8 @@ class ViscousVessel(unittest.TestCase):
         self.compare(check, VISCOSITIES[1:], ("body",))
 
     def test_mean_velocity_is_held(self):
-        # Two solves find the drive at step 0, exactly where forces are linear in velocities. From then
-        # on the velocity is off by the second difference of what the cell does to the flow.
+        # Two solves find the drive at step 0, exactly where forces are linear in velocities. From
+        # then on the velocity is off by the second difference of what the cell does to the flow.
         def check(without, viscous, viscosity):
             self.assertLess(abs(viscous[1]["f_flow[13]"][0] / MEAN - 1),
                             2e-3 if viscosity == THINNING else 20 * TOLERANCE)
