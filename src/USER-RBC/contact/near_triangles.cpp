@@ -2,6 +2,7 @@
 
 #include "geometry/arc_tangent.h"
 #include "geometry/closest_point.h"
+#include "geometry/signed_distance.h"
 #include "geometry/spatial_bins.h"
 #include "geometry/vector_loop.h"
 
@@ -301,17 +302,17 @@ const std::vector<VertexContact> &NearTriangles::contacts(const double *x, doubl
 }
 
 /* ----------------------------------------------------------------------
-   direction that points out of the surface at the closest point: the sum of the normals of the triangles that meet
-   there, at a corner weighted by their angles (Baerentzen and Aanaes, IEEE Trans Vis Comput Graph 11, 243, 2005)
+   direction at the closest point that points out of the surface, as FeatureNormals has it. Surfaces
+   move from step to step, so that it is found only where it is needed.
 ------------------------------------------------------------------------- */
 
 PlainVector NearTriangles::outward(const double *x, const std::array<int, 3> &corner,
                                    const std::array<double, 3> &weight, PlainVector face) const
 {
-  int on[3], count = 0;
-  for (int c = 0; c < 3; ++c)
-    if (weight[c] != 0) on[count++] = corner[c];
+  const TriangleFeature feature(weight);
+  const int count = feature.count;
   if (count == 3) return face;
+  const int on[2] = {corner[feature.corner[0]], count == 2 ? corner[feature.corner[1]] : -1};
 
   PlainVector sum{0, 0, 0};
   for (int f = incident_begin_[on[0]]; f < incident_begin_[on[0] + 1]; ++f) {

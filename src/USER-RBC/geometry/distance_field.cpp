@@ -1,6 +1,6 @@
 #include "geometry/distance_field.h"
 
-#include "geometry/triangle_distance.h"
+#include "geometry/signed_distance.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -12,36 +12,30 @@ namespace {
 
 constexpr int spacings_per_radius = 32;
 
-/// Distance to a surface and the side, by the normals of the closest face, edge or corner. Those of corners are
-/// weighted with the angles of the faces: Baerentzen and Aanaes, IEEE Trans Vis Comput Graph 11, 243 (2005).
+/// Signed distance to a surface, by looking at all triangles.
 class ExactDistance {
  public:
-  explicit ExactDistance(const SurfaceTemplate &surface) :
-      surface_(surface), corner_normals_(surface.vertices.size(), Vec3::Zero()),
-      edge_normals_(surface.triangles.size())
+  explicit ExactDistance(const SurfaceTemplate &surface)
   {
     for (const auto &corners : surface.triangles) {
       Triangle triangle;
       for (int c = 0; c < 3; ++c) triangle[c] = surface.vertices[corners[c]];
       triangles_.push_back(triangle);
-      normals_.push_back((triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized());
       const Vec3 middle = (triangle[0] + triangle[1] + triangle[2]) / 3;
       double radius = 0;
       for (const Vec3 &corner : triangle) radius = std::max(radius, (corner - middle).norm());
       middles_.push_back(middle);
       radii_.push_back(radius);
-      for (int c = 0; c < 3; ++c) {
-        const Vec3 u = triangle[(c + 1) % 3] - triangle[c], v = triangle[(c + 2) % 3] - triangle[c];
-        corner_normals_[corners[c]] += std::atan2(u.cross(v).norm(), u.dot(v)) * normals_.back();
-      }
     }
+    std::vector<SurfaceTemplate::Corners> neighbor(triangles_.size());
     for (const Hinge &hinge : surface.hinges)
-      for (int t : {hinge.left, hinge.right})
-        for (int c = 0; c < 3; ++c) {
-          const int corner = surface.triangles[t][c];
-          if (corner != hinge.a && corner != hinge.b)
-            edge_normals_[t][c] = normals_[hinge.left] + normals_[hinge.right];
-        }
+      for (int c = 0; c < 3; ++c) {
+        if (surface.triangles[hinge.left][c] == hinge.a) neighbor[hinge.left][c] = hinge.right;
+        if (surface.triangles[hinge.right][c] == hinge.b) neighbor[hinge.right][c] = hinge.left;
+      }
+    normals_ = feature_normals(
+        triangles_, surface.vertex_count(), [&](int t, int c) { return surface.triangles[t][c]; },
+        [&](int t, int c) { return neighbor[t][c]; });
   }
 
   /// Of a point known to be no further than `bound` away.
@@ -60,28 +54,19 @@ class ExactDistance {
       nearest = t;
       weights = w;
     }
-    const double side = (p - point(nearest, weights)).dot(normal(nearest, weights));
+    const double side = (p - point(nearest, weights)).dot(normals_[nearest].at(weights));
     return std::copysign(std::sqrt(least), side);
   }
 
  private:
-  const SurfaceTemplate &surface_;
   std::vector<Triangle> triangles_;
-  std::vector<Vec3> normals_, middles_, corner_normals_;
-  std::vector<std::array<Vec3, 3>> edge_normals_;    ///< of the edge opposite to each corner
+  std::vector<FeatureNormals> normals_;
+  std::vector<Vec3> middles_;
   std::vector<double> radii_;
 
   Vec3 point(int t, const std::array<double, 3> &w) const
   {
     return w[0] * triangles_[t][0] + w[1] * triangles_[t][1] + w[2] * triangles_[t][2];
-  }
-
-  Vec3 normal(int t, const std::array<double, 3> &w) const
-  {
-    const auto zeros = std::count(w.begin(), w.end(), 0.0);
-    if (zeros == 0) return normals_[t];
-    if (zeros == 1) return edge_normals_[t][std::find(w.begin(), w.end(), 0.0) - w.begin()];
-    return corner_normals_[surface_.triangles[t][std::max_element(w.begin(), w.end()) - w.begin()]];
   }
 };
 

@@ -29,27 +29,12 @@ TriangulatedSolid::TriangulatedSolid(std::vector<Triangle> triangles, const Pack
       lo_ = lo_.cwiseMin(corner);
       hi_ = hi_.cwiseMax(corner);
     }
-  find_normals(mesh);
+  normals_ = feature_normals(
+      triangles_, mesh.vertices(), [&mesh](int t, int c) { return mesh.vertex(t, c); },
+      [&mesh](int t, int c) { return mesh.neighbor(t, c); });
   orient();
   index();
   measure_centres();
-}
-
-void TriangulatedSolid::find_normals(const MeshConnectivity &mesh)
-{
-  const int count = static_cast<int>(triangles_.size());
-  normals_.resize(count);
-  for (int t = 0; t < count; ++t) normals_[t].face = area_vector(triangles_[t]).normalized();
-  std::vector<Vec3> at_vertex(mesh.vertices(), Vec3::Zero());
-  for (int t = 0; t < count; ++t)
-    for (int c = 0; c < 3; ++c) {
-      const Triangle &p = triangles_[t];
-      const Vec3 u = p[(c + 1) % 3] - p[c], v = p[(c + 2) % 3] - p[c];
-      at_vertex[mesh.vertex(t, c)] += std::atan2(u.cross(v).norm(), u.dot(v)) * normals_[t].face;
-      normals_[t].edge[(c + 2) % 3] = normals_[t].face + normals_[mesh.neighbor(t, c)].face;
-    }
-  for (int t = 0; t < count; ++t)
-    for (int c = 0; c < 3; ++c) normals_[t].corner[c] = at_vertex[mesh.vertex(t, c)];
 }
 
 /* ----------------------------------------------------------------------
@@ -75,15 +60,7 @@ void TriangulatedSolid::orient()
   if (volume_ > 0) return;
   volume_ = -volume_;
   for (Triangle &t : triangles_) std::swap(t[1], t[2]);
-  for (Normals &n : normals_) {
-    n.face = -n.face;
-    std::swap(n.edge[1], n.edge[2]);
-    std::swap(n.corner[1], n.corner[2]);
-    for (int c = 0; c < 3; ++c) {
-      n.edge[c] = -n.edge[c];
-      n.corner[c] = -n.corner[c];
-    }
-  }
+  for (FeatureNormals &normals : normals_) normals.turn_over();
 }
 
 void TriangulatedSolid::index()
@@ -208,13 +185,7 @@ TriangulatedSolid::Nearest TriangulatedSolid::exact(const Vec3 &x, Best best) co
 {
   search(x, best);
   if (best.triangle < 0) return {Vec3::Zero(), HUGE_VAL};
-  const Normals &normals = normals_[best.triangle];
-  const auto &w = best.weights;
-  const auto zeros = std::count(w.begin(), w.end(), 0.0);
-  const Vec3 &normal = zeros == 0 ? normals.face
-                       : zeros == 1
-                           ? normals.edge[std::find(w.begin(), w.end(), 0.0) - w.begin()]
-                           : normals.corner[std::max_element(w.begin(), w.end()) - w.begin()];
+  const Vec3 &normal = normals_[best.triangle].at(best.weights);
   const double distance = std::sqrt(best.square);
   return {best.from_surface, best.from_surface.dot(normal) > 0 ? distance : -distance};
 }

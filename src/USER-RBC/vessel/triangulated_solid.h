@@ -1,7 +1,7 @@
 #pragma once
 
 #include "geometry/packing_box.h"
-#include "geometry/triangle_distance.h"
+#include "geometry/signed_distance.h"
 
 #include <Eigen/Geometry>
 #include <unsupported/Eigen/BVH>
@@ -38,7 +38,6 @@ class TriangulatedSolid {
   double volume() const { return volume_; }
   const Vec3 &lo() const { return lo_; }
   const Vec3 &hi() const { return hi_; }
-  const std::vector<Triangle> &triangles() const { return triangles_; }
 
  private:
   struct Best {
@@ -53,14 +52,7 @@ class TriangulatedSolid {
   Vec3 lo_, hi_;
   double volume_ = 0;
 
-  // the side of a point follows from the normal of the closest face, edge or corner; those of corners are weighted with
-  // the angles of the faces: Baerentzen and Aanaes, IEEE Trans Vis Comput Graph 11, 243 (2005)
-  struct Normals {
-    Vec3 face;
-    std::array<Vec3, 3> edge;    ///< opposite to each corner
-    std::array<Vec3, 3> corner;
-  };
-  std::vector<Normals> normals_;
+  std::vector<FeatureNormals> normals_;    ///< of each triangle
   Eigen::KdBVH<double, 3, int> tree_;
 
   // signed distances from the centres of coarse cells: far from the surface they tell the side
@@ -73,7 +65,6 @@ class TriangulatedSolid {
   mutable Vec3 last_ = Vec3::Constant(NAN);
   mutable Nearest nearest_to_last_;
 
-  void find_normals(const class MeshConnectivity &mesh);
   void orient();
   void index();
   void measure_centres();
