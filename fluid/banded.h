@@ -1,14 +1,15 @@
 #pragma once
 
 #include "fluid/lanes.h"
+#include "fluid/plate_condition.h"
 
 #include <vector>
 
 namespace fluid {
 
-/// Real and imaginary part along z of complex columns.
-template <int N> struct Columns {
-  explicit Columns(int n) : re(n, Lane<N>::Zero()), im(n, Lane<N>::Zero()) {}
+/// Real and imaginary part of complex lines along z.
+template <int N> struct ComplexLines {
+  explicit ComplexLines(int n) : re(n, Lane<N>::Zero()), im(n, Lane<N>::Zero()) {}
 
   ComplexLane<N> operator[](int k) const { return {re[k], im[k]}; }
   void set(int k, const ComplexLane<N> &z)
@@ -20,24 +21,29 @@ template <int N> struct Columns {
   std::vector<Lane<N>> re, im;
 };
 
-/// What holds beyond the first and the last of a column's points, in units of the coefficient b.
-enum class ColumnEnds {
-  no_flux = -1,    ///< the value of the last point
-  zero = 0,        ///< zero at the next point
-  no_slip = 1      ///< zero midway to the next point
-};
+/// The values one point beyond the ends of a line are these factors times the values at its ends: 1 is
+/// a slope of zero, 0 a value of zero at the next point, -1 a value of zero midway to it.
+using LineEnds = ImageFactors;
+constexpr LineEnds zero_slope{1, 1}, zero_value{0, 0};
 
-/// Columns of (a - b h^2 d^2/dz^2) x = r, solved by L D L^T.
-/// `factor` takes a and b = viscosity / h^2; `solve` replaces r by x. Or row by row: `begin`, then for rising k
-/// factor_row and eliminate, which needs r up to row k; then for falling k substitute, which gives x in row k.
-template <int N> class HelmholtzColumns : public Columns<N> {
+/// Part of the image factors that acts in row k of n rows.
+inline double end_factor(const LineEnds &ends, int k, int n)
+{
+  return (k == 0 ? ends.lower : 0) + (k == n - 1 ? ends.upper : 0);
+}
+
+/// Lines of (a - b h^2 d^2/dz^2) x = r, solved by L D L^T.
+/// `factor` takes a and b = viscosity / h^2; `solve` replaces r by x. The other way is row by row: `begin`,
+/// then for rising k factor_row and eliminate, which needs r up to row k; then for falling k substitute,
+/// which gives x in row k.
+template <int N> class TridiagonalLines : public ComplexLines<N> {
  public:
-  using Columns<N>::re;
-  using Columns<N>::im;
+  using ComplexLines<N>::re;
+  using ComplexLines<N>::im;
 
-  explicit HelmholtzColumns(int n) : Columns<N>(n), inverse_pivot_(n), ratio_(n) {}
+  explicit TridiagonalLines(int n) : ComplexLines<N>(n), inverse_pivot_(n), ratio_(n) {}
 
-  void factor(const Lane<N> &a, double b, ColumnEnds ends = ColumnEnds::no_slip)
+  void factor(const Lane<N> &a, double b, const LineEnds &ends)
   {
     begin(a, b, ends);
     for (int k = 0; k < cells(); ++k) factor_row(k);
@@ -49,16 +55,16 @@ template <int N> class HelmholtzColumns : public Columns<N> {
     for (int k = cells() - 1; k >= 0; --k) substitute(k);
   }
 
-  void begin(const Lane<N> &a, double b, ColumnEnds ends = ColumnEnds::no_slip)
+  void begin(const Lane<N> &a, double b, const LineEnds &ends)
   {
     a_ = a;
     b_ = b;
-    end_ = static_cast<int>(ends);
+    ends_ = ends;
   }
 
   void factor_row(int k)
   {
-    Lane<N> pivot = a_ + b_ * (2 + end_ * ((k == 0) + (k == cells() - 1)));
+    Lane<N> pivot = a_ + b_ * (2 - end_factor(ends_, k, cells()));
     if (k > 0) pivot -= b_ * ratio_[k - 1];
     inverse_pivot_[k] = 1 / pivot;
     ratio_[k] = b_ * inverse_pivot_[k];
@@ -85,30 +91,32 @@ template <int N> class HelmholtzColumns : public Columns<N> {
 
   Lane<N> a_;
   double b_ = 0;
-  int end_ = 0;
+  LineEnds ends_;
   std::vector<Lane<N>> inverse_pivot_, ratio_;
 };
 
-/// Columns of (q A_w + D^T A_c D) w = r on the interior faces 1 .. n-1 of n cells, w = 0 on faces 0 and n, with
-/// the Helmholtz operators A of coefficients a and b = viscosity / h^2 on faces (A_w) and on centres (A_c).
-/// Used row by row like HelmholtzColumns, k = 1 .. n-1.
-template <int N> class VerticalColumns : public Columns<N> {
+/// Lines of (q A_w + D^T A_c D) w = r on the interior faces 1 .. n-1 of n cells, w = 0 on faces 0 and n, with
+/// the Helmholtz operators A of coefficients a and b = viscosity / h^2 on faces (A_w) and on centres (A_c),
+/// of which the latter has the given ends.
+/// Used row by row like TridiagonalLines, k = 1 .. n-1.
+template <int N> class PentadiagonalLines : public ComplexLines<N> {
  public:
-  using Columns<N>::re;
-  using Columns<N>::im;
+  using ComplexLines<N>::re;
+  using ComplexLines<N>::im;
 
   /// Stores zeros beyond face n too.
-  explicit VerticalColumns(int cells) :
-      Columns<N>(cells + 2), cells_(cells), inverse_pivot_(cells, Lane<N>::Zero()),
+  explicit PentadiagonalLines(int cells) :
+      ComplexLines<N>(cells + 2), cells_(cells), inverse_pivot_(cells, Lane<N>::Zero()),
       ratio_(cells, Lane<N>::Zero())
   {
   }
 
-  void begin(const Lane<N> &a, const Lane<N> &q, double b)
+  void begin(const Lane<N> &a, const Lane<N> &q, double b, const LineEnds &ends)
   {
     interior_ = a + 2 * b;
     q_ = q;
     b_ = b;
+    ends_ = ends;
     coupling_.setZero();
   }
 
@@ -116,7 +124,7 @@ template <int N> class VerticalColumns : public Columns<N> {
   void factor_row(int k)
   {
     const auto centre = [&](int c) -> Lane<N> {
-      return interior_ + ((c == 0) + (c == cells_ - 1)) * b_;
+      return interior_ - end_factor(ends_, c, cells_) * b_;
     };
     const Lane<N> pivot = q_ * interior_ + centre(k - 1) + centre(k) + 2 * b_ -
                           coupling_ * ratio_[k - 1] - b_ * b_ * inverse_pivot_[before(k)];
@@ -144,6 +152,7 @@ template <int N> class VerticalColumns : public Columns<N> {
   int cells_;
   Lane<N> interior_, q_, coupling_;
   double b_ = 0;
+  LineEnds ends_;
   std::vector<Lane<N>> inverse_pivot_, ratio_;
 };
 

@@ -46,10 +46,12 @@ void find_tractions(const Flow &flow, const Forcing &forcing, FlowDiagnostics &m
     measures.lower_traction[c] = sums[4 + c] * per_plane * h;
     measures.upper_traction[c] = sums[7 + c] * per_plane * h;
   }
-  const double shear = 2 * flow.equations().viscosity / h;
+  const ImageFactors images = grid.plate_conditions.factors();
+  const double lower = (1 - images.lower) * flow.equations().viscosity / h;
+  const double upper = (1 - images.upper) * flow.equations().viscosity / h;
   for (int c = 0; c < 2; ++c) {
-    measures.lower_traction[c] += shear * (sums[c] * per_plane - forcing.plates.lower[c]);
-    measures.upper_traction[c] += shear * (sums[2 + c] * per_plane - forcing.plates.upper[c]);
+    measures.lower_traction[c] += lower * (sums[c] * per_plane - forcing.plates.lower[c]);
+    measures.upper_traction[c] += upper * (sums[2 + c] * per_plane - forcing.plates.upper[c]);
   }
   const double weight = h / 2 * forcing.body[2];    // of the half cells at the plates
   measures.lower_traction[2] += weight + mean;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fluid/box.h"
+#include "fluid/plate_condition.h"
 
 #include <mpi.h>
 #include <vector>
@@ -14,6 +15,7 @@ struct Grid {
   Real3 origin;
   Real3 spacing;
   bool plates = false;
+  PlateConditions plate_conditions{};
 
   Box domain() const { return {{0, 0, 0}, cells}; }
   double cell_volume() const { return spacing[0] * spacing[1] * spacing[2]; }

@@ -1,5 +1,7 @@
 #include "fluid/mean_profile.h"
 
+#include "fluid/banded.h"
+
 namespace fluid {
 
 MeanProfile::MeanProfile(const Grid &grid, double viscosity) :
@@ -13,15 +15,16 @@ void MeanProfile::solve(const std::array<View<Complex>, 3> &force, double shift,
 {
   const int n = grid_.cells[2];
   const double h = grid_.spacing[2], b = viscosity_ / (h * h);
+  const ImageFactors images = grid_.plate_conditions.factors();
   const double scale = 1.0 / (double(grid_.cells[0]) * grid_.cells[1]);
   for (int c = 0; c < 2; ++c) {
     std::vector<double> &u = velocity_[c];
     for (int k = 0; k < n; ++k) u[k] = force[c](0, 0, k).real() * scale + forcing.body[c];
-    u[0] += 2 * b * forcing.plates.lower[c];
-    u[n - 1] += 2 * b * forcing.plates.upper[c];
+    u[0] += (1 - images.lower) * b * forcing.plates.lower[c];
+    u[n - 1] += (1 - images.upper) * b * forcing.plates.upper[c];
     for (int k = 0; k < n; ++k) {
       const double before = k > 0 ? ratio_[k - 1] : 0;
-      const double pivot = shift + b * (2 + (k == 0) + (k == n - 1)) - b * before;
+      const double pivot = shift + b * (2 - end_factor(images, k, n)) - b * before;
       u[k] = (u[k] + (k > 0 ? b * u[k - 1] : 0)) / pivot;
       ratio_[k] = b / pivot;
     }

@@ -10,7 +10,8 @@ class MeanProfile {
  public:
   MeanProfile(const Grid &grid, double viscosity);
 
-  /// Solves (shift - viscosity d^2/dz^2) u = f; reads the mean modes of the force density.
+  /// Solves (shift - viscosity d^2/dz^2) u = f; reads the mean modes of the force density. Without a
+  /// shift one of the plates must hold the flow.
   void solve(const std::array<View<Complex>, 3> &force, double shift, const Forcing &forcing);
 
   /// Writes the mean modes of the velocity, and of the pressure if given (its mean is zero).

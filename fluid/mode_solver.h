@@ -29,7 +29,7 @@ class ModeSolver {
 std::unique_ptr<ModeSolver> make_periodic_modes(const Grid &grid, const Box &modes,
                                                 double viscosity, double shift, bool hold_mean);
 
-/// Plates at both ends of z (no slip). Exact to round-off: velocity and pressure are not split.
+/// Plates at both ends of z, with the conditions of the grid. Exact to round-off: velocity and pressure are not split.
 std::unique_ptr<ModeSolver> make_walled_modes(const Grid &grid, const Box &modes, double viscosity,
                                               double shift);
 

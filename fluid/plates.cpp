@@ -19,6 +19,12 @@ PlanePair mirrored(const Grid &grid, int c, bool upper, int layer)
   return upper ? PlanePair{n - 1 + layer, n - layer} : PlanePair{-layer, layer - 1};
 }
 
+/// The factor of images beyond a plate for component c.
+double image_factor(const Grid &grid, int c, bool upper)
+{
+  return c == 2 ? -1 : grid.plate_conditions.factors().at(upper);
+}
+
 /// Number of planes of component c beyond a plate that the ghost cells hold.
 int planes_beyond(int c, bool upper)
 {
@@ -47,6 +53,7 @@ void reflect_velocity(const Grid &grid, const PlateVelocities &plates, const Vec
     const Real3 &wall = upper ? plates.upper : plates.lower;
     for (int c = 0; c < 3; ++c) {
       const View<double> u = velocity[c];
+      const double factor = image_factor(grid, c, upper), of_plate = (1 - factor) * wall[c];
       if (c == 2) {
         const int plate = upper ? grid.cells[2] : 0;
         for_each_in_plane(box, [&](int i, int j) { u(i, j, plate) = 0; });
@@ -55,7 +62,7 @@ void reflect_velocity(const Grid &grid, const PlateVelocities &plates, const Vec
         const auto [beyond, inside] = mirrored(grid, c, upper, layer);
         if (beyond < box.lo[2] || beyond >= box.hi[2]) continue;
         for_each_in_plane(box, [&, beyond = beyond, inside = inside](int i, int j) {
-          u(i, j, beyond) = 2 * wall[c] - u(i, j, inside);
+          u(i, j, beyond) = of_plate + factor * u(i, j, inside);
         });
       }
     }
@@ -70,6 +77,7 @@ void fold_force(const Grid &grid, const VectorField &force, Real3 &lower, Real3 
     Real3 &sum = upper ? upper_sum : lower;
     for (int c = 0; c < 3; ++c) {
       const View<double> f = force[c];
+      const double factor = image_factor(grid, c, upper);
       if (c == 2) {
         const int plate = upper ? grid.cells[2] : 0;
         for_each_in_plane(box, [&](int i, int j) {
@@ -81,8 +89,8 @@ void fold_force(const Grid &grid, const VectorField &force, Real3 &lower, Real3 
         const auto [beyond, inside] = mirrored(grid, c, upper, layer);
         if (beyond < box.lo[2] || beyond >= box.hi[2]) continue;
         for_each_in_plane(box, [&, beyond = beyond, inside = inside](int i, int j) {
-          sum[c] += 2 * f(i, j, beyond);
-          f(i, j, inside) -= f(i, j, beyond);
+          sum[c] += (1 - factor) * f(i, j, beyond);
+          f(i, j, inside) += factor * f(i, j, beyond);
           f(i, j, beyond) = 0;
         });
       }

@@ -32,6 +32,7 @@ class ProjectedModes : public PlateModes {
                    int first, int count) override
   {
     const int n = grid_.cells[2];
+    const ImageFactors images = grid_.plate_conditions.factors();
     const double h = grid_.spacing[2], b = viscosity_ / (h * h);
     const double scale = 1.0 / (double(grid_.cells[0]) * grid_.cells[1]);
     const auto [kappa, along_x, along_y, ex, ey] = WaveVectors(x_, y_, modes_, first, count);
@@ -51,11 +52,11 @@ class ProjectedModes : public PlateModes {
       const Modes w = Modes::load(at(spectrum[2], k), count);
       vertical_.set(k - 1, scale * w - (1 / h) * (pressure_[k] - pressure_[k - 1]));
     }
-    across_.factor(a, b);
+    across_.factor(a, b, images);
     across_.solve();
-    along_.factor(a, b);
+    along_.factor(a, b, images);
     along_.solve();
-    vertical_.factor(a, b, ColumnEnds::zero);
+    vertical_.factor(a, b, zero_value);
     vertical_.solve();
 
     for (int k = 0; k < n; ++k) {
@@ -65,7 +66,7 @@ class ProjectedModes : public PlateModes {
       potential_.set(k, -shift_ * divergence);
       pressure_.set(k, pressure_[k] - viscosity_ * divergence);
     }
-    potential_.factor(kappa * kappa, 1 / (h * h), ColumnEnds::no_flux);
+    potential_.factor(kappa * kappa, 1 / (h * h), zero_slope);
     potential_.solve();
 
     const Lanes slope = kappa / shift_;
@@ -81,8 +82,8 @@ class ProjectedModes : public PlateModes {
     }
   }
 
-  HelmholtzColumns<lanes> across_, along_, vertical_, potential_;
-  Columns<lanes> pressure_;
+  TridiagonalLines<lanes> across_, along_, vertical_, potential_;
+  ComplexLines<lanes> pressure_;
   Components<Complex, 1> kept_;
 };
 

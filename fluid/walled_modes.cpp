@@ -24,6 +24,7 @@ class WalledModes : public PlateModes {
                    int first, int count) override
   {
     const int n = grid_.cells[2];
+    const ImageFactors images = grid_.plate_conditions.factors();
     const double h = grid_.spacing[2], b = viscosity_ / (h * h);
     const double scale = 1.0 / (double(grid_.cells[0]) * grid_.cells[1]);
 
@@ -35,8 +36,8 @@ class WalledModes : public PlateModes {
     };
 
     // The part along the wave vector is taken times i, which makes the system for w real.
-    across_.begin(a, b);
-    vertical_.begin(a, q, b);
+    across_.begin(a, b, images);
+    vertical_.begin(a, q, b, images);
     for (int k = 0; k < n; ++k) {
       const Modes u = ex * Modes::load(at(spectrum[0], k), count);
       const Modes v = ey * Modes::load(at(spectrum[1], k), count);
@@ -67,16 +68,16 @@ class WalledModes : public PlateModes {
     const Lanes inverse_kappa = 1 / kappa;
     for (int k = 0; k < n; ++k) {
       const Modes here = continuity(k);
-      const Modes below = k > 0 ? continuity(k - 1) : -here;
-      const Modes above = k < n - 1 ? continuity(k + 1) : -here;
+      const Modes below = k > 0 ? continuity(k - 1) : images.lower * here;
+      const Modes above = k < n - 1 ? continuity(k + 1) : images.upper * here;
       const Modes applied = (a + 2 * b) * here - b * (below + above);
       (inverse_kappa * (applied - along_[k])).store(at(*pressure, k), count);
     }
   }
 
-  HelmholtzColumns<lanes> across_;
-  Columns<lanes> along_;
-  VerticalColumns<lanes> vertical_;
+  TridiagonalLines<lanes> across_;
+  ComplexLines<lanes> along_;
+  PentadiagonalLines<lanes> vertical_;
 };
 
 }    // namespace

@@ -58,10 +58,11 @@ struct Jet {
   }
 };
 
-/// A flow that is given, and the force density that makes it: between plates that move in time at z = 0 and
-/// z = height (no slip), or triply periodic.
+/// A flow that is given, and the force density that makes it: between plates at z = 0 and z = height,
+/// which move in time or let the fluid slip, or triply periodic.
 struct Manufactured {
   bool walls = true;
+  PlateConditions conditions{};
   Real3 size{1, 1.25, 0.8};
   double viscosity = 0.05, density = 1.3;
   Inertia inertia = Inertia::convective;
@@ -90,7 +91,7 @@ struct Manufactured {
 
   Grid grid(const Index3 &cells) const
   {
-    Grid grid{cells, {0, 0, 0}, {}, walls};
+    Grid grid{cells, {0, 0, 0}, {}, walls, conditions};
     for (int d = 0; d < 3; ++d) grid.spacing[d] = size[d] / cells[d];
     return grid;
   }
@@ -100,15 +101,40 @@ struct Manufactured {
   template <typename T> std::array<T, 3> velocity(const std::array<T, 3> &x, const T &t) const
   {
     using std::cos, std::sin;
-    const double a = 2 * pi / size[0], b = 2 * pi / size[1], g = (walls ? pi : 2 * pi) / size[2];
-    const T sine = sin(g * x[2]), cosine = cos(g * x[2]);
-    const T rise = walls ? sine * sine : sine, slope = g * (walls ? 2 * sine * cosine : cosine);
+    const double a = 2 * pi / size[0], b = 2 * pi / size[1];
+    const auto [rise, slope, across] = profiles(x[2]);
     const T ax = a * x[0], by = b * x[1] + 1;
     const T one = sin(3 * t + 0.4), other = cos(2 * t), third = sin(5 * t);
     const std::array<T, 3> mean = mean_flow(x[2], t);
     return {-(1 / a) * one * sin(ax) * slope + mean[0],
-            -(1 / b) * other * sin(by) * slope + third * sin(ax) * rise + mean[1],
+            -(1 / b) * other * sin(by) * slope + third * sin(ax) * across + mean[1],
             (one * cos(ax) + other * cos(by)) * rise};
+  }
+
+  bool slips(bool upper) const
+  {
+    return (upper ? conditions.upper : conditions.lower) == PlateCondition::free_slip;
+  }
+
+  /// That of the velocity w, its derivative, and that of the flow across the rolls.
+  template <typename T> struct Profiles {
+    T rise, slope, across;
+  };
+
+  template <typename T> Profiles<T> profiles(const T &z) const
+  {
+    using std::cos, std::sin;
+    const double g = (walls ? pi : 2 * pi) / size[2];
+    const T sine = sin(g * z), cosine = cos(g * z);
+    if (!walls) return {sine, g * cosine, sine};
+    if (!slips(false) && !slips(true)) return {sine * sine, g * (2 * sine * cosine), sine * sine};
+    const T s = (slips(false) ? 1 : -1) / size[2] * z + (slips(false) ? 0.0 : 1.0);
+    const double turn = (slips(false) ? 2 : -2) / size[2];
+    if (slips(false) && slips(true))
+      return {2 * s * (1 - 2 * s * s + s * s * s), turn * (1 - 6 * s * s + 4 * s * s * s),
+              1 + 3 * s * s - 2 * s * s * s};
+    return {2 * s * (1 - 3 * s * s + 2 * s * s * s), turn * (1 - 9 * s * s + 8 * s * s * s),
+            1 - s * s};
   }
 
   template <typename T> T pressure(const std::array<T, 3> &x, const T &t) const
@@ -131,6 +157,12 @@ struct Manufactured {
     using std::cos, std::sin;
     if (!walls) return {0.3 * sin(2 * t), 0.3 * sin(2 * t), 0};
     const std::array<T, 3> low = plate(false, t), high = plate(true, t);
+    if (slips(false) || slips(true)) {
+      const std::array<T, 3> &held = slips(false) ? high : low;
+      const T along = 0.3 * cos(t) * profiles(z).across;
+      if (slips(false) && slips(true)) return {along, -along, 0};
+      return {held[0] + along, held[1] - along, 0};
+    }
     const T s = 1 / size[2] * z, parabola = cos(t) * s * (1 - s);
     return {low[0] + (high[0] - low[0]) * s + parabola, low[1] + (high[1] - low[1]) * s + parabola,
             0};

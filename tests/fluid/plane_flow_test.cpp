@@ -17,9 +17,10 @@ using Profile = std::function<double(double z, double t)>;
 
 /// Error of the velocity along x after n steps from time 0, on a grid with n cells from plate to plate.
 double error(int n, double duration, const Profile &exact,
-             const std::function<Forcing(double t)> &forcing)
+             const std::function<Forcing(double t)> &forcing,
+             const PlateConditions &conditions = {})
 {
-  const Grid grid{{4, 4, n}, {0, 0, 0}, {0.1, 0.1, height / n}, true};
+  const Grid grid{{4, 4, n}, {0, 0, 0}, {0.1, 0.1, height / n}, true, conditions};
   ForcedFlow flow(grid, even(grid, {1, 1, ranks()}), 0,
                   FlowEquations{viscosity, density, Inertia::unsteady});
   flow.set_velocity([&](int c, int i, int j, int k) {
@@ -68,6 +69,20 @@ TEST(PlaneFlow, OfAnOscillatingPlateIsOfSecondOrder)
   };
   const auto forcing = [](double t) { return Forcing{{{std::cos(omega * t), 0, 0}, {}}, {}, {}}; };
   EXPECT_NEAR(order(error(32, 1, exact, forcing), error(64, 1, exact, forcing)), 2, 0.05);
+}
+
+/// Stokes's second problem below a plate without shear.
+TEST(PlaneFlow, OfAnOscillatingPlateBelowOneThatSlipsIsOfSecondOrder)
+{
+  const Profile exact = [](double z, double t) {
+    return (std::cosh(lambda() * (height - z)) / std::cosh(lambda() * height) *
+            std::polar(1.0, omega * t))
+        .real();
+  };
+  const auto forcing = [](double t) { return Forcing{{{std::cos(omega * t), 0, 0}, {}}, {}, {}}; };
+  const PlateConditions conditions{PlateCondition::no_slip, PlateCondition::free_slip};
+  const double coarse = error(32, 1, exact, forcing, conditions);
+  EXPECT_NEAR(order(coarse, error(64, 1, exact, forcing, conditions)), 2, 0.05);
 }
 
 /// Womersley's flow between plates.

@@ -100,16 +100,20 @@ class StokesCase {
   }
 
  private:
-  /// Velocity with the plates' rule: their own velocity midway between a point and its image beyond
-  /// them.
+  /// Velocity with the plates' rule. Without slip it is that of the plate midway between a point and its
+  /// image beyond; with slip the image has the velocity of the point.
   double u(int c, int i, int j, int k) const
   {
     const int n = grid_.cells[2];
     const auto &field = velocity_[c];
     if (!grid_.plates) return field(i, j, k);
     if (c == 2) return k == 0 || k == n ? 0 : field(i, j, k);
-    if (k < 0) return 2 * forcing_.plates.lower[c] - field(i, j, 0);
-    if (k >= n) return 2 * forcing_.plates.upper[c] - field(i, j, n - 1);
+    const auto image = [](PlateCondition condition, double plate, double inside) {
+      return condition == PlateCondition::no_slip ? 2 * plate - inside : inside;
+    };
+    const auto &[lower, upper] = grid_.plate_conditions;
+    if (k < 0) return image(lower, forcing_.plates.lower[c], field(i, j, 0));
+    if (k >= n) return image(upper, forcing_.plates.upper[c], field(i, j, n - 1));
     return field(i, j, k);
   }
 

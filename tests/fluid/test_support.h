@@ -134,7 +134,12 @@ inline std::string describe(const Grid &grid)
 {
   std::string text;
   for (int n : grid.cells) text += std::to_string(n) + ' ';
-  return text + (grid.plates ? "cells, plates" : "cells, periodic");
+  if (!grid.plates) return text + "cells, periodic";
+  const auto name = [](PlateCondition condition) {
+    return condition == PlateCondition::no_slip ? " no-slip" : " free-slip";
+  };
+  return text + "cells, plates" + name(grid.plate_conditions.lower) +
+         name(grid.plate_conditions.upper);
 }
 
 // ---- values

@@ -71,6 +71,26 @@ TEST_P(TimeStep, IsOfSecondOrderWithStepsThatChange)
   EXPECT_NEAR(order_in_time(GetParam(), Scheme::coupled, 8, 80, 2.5), 2, 0.05);
 }
 
+/// Convergence in time does not depend on what the plates do, which is in the operators.
+TEST(TimeStepBesidePlatesThatSlip, IsOfSecondOrder)
+{
+  constexpr PlateCondition no_slip = PlateCondition::no_slip, free_slip = PlateCondition::free_slip;
+  for (Inertia inertia : {Inertia::unsteady, Inertia::convective})
+    for (const PlateConditions &conditions :
+         {PlateConditions{free_slip, no_slip}, PlateConditions{no_slip, free_slip},
+          PlateConditions{free_slip, free_slip}}) {
+      Manufactured exact;
+      exact.inertia = inertia;
+      exact.conditions = conditions;
+      const Errors coarse = errors(exact, 12), fine = errors(exact, 24);
+      EXPECT_NEAR(order(coarse.velocity.rms(), fine.velocity.rms()), 2, 0.05);
+      EXPECT_GT(order(coarse.pressure.rms(), fine.pressure.rms()), 1.9);
+      EXPECT_LT(fine.divergence, 1e-13);
+      if (inertia != Inertia::convective) continue;
+      EXPECT_NEAR(order_in_time(exact, Scheme::projection, 8, 80), 2, 0.05);
+    }
+}
+
 Manufactured equations(Inertia inertia, bool walls)
 {
   Manufactured exact;
