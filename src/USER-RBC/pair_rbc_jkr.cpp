@@ -230,7 +230,8 @@ const PairRBCJKR::TypePair &PairRBCJKR::types(int itype, int jtype) const
 }
 
 /* ----------------------------------------------------------------------
-   two vertices may each move by half the skin until the next reneighboring, and by as much again within a step
+   two vertices may each move by half the skin until the next reneighboring, and by as much again
+   within a step
 ------------------------------------------------------------------------- */
 
 double PairRBCJKR::slack() const
@@ -239,7 +240,8 @@ double PairRBCJKR::slack() const
 }
 
 /* ----------------------------------------------------------------------
-   the cutoff between atoms, to which LAMMPS adds the skin, leaves ghosts enough for all corners of triangles in reach
+   LAMMPS adds the skin to the cutoff between atoms that is returned. Ghosts then reach all corners
+   of the triangles in reach of an owned vertex.
 ------------------------------------------------------------------------- */
 
 double PairRBCJKR::init_one(int i, int j)

@@ -140,7 +140,8 @@ void NearSurfaces::build(double range, double slack_of_ghosts, double stale)
 }
 
 /* ----------------------------------------------------------------------
-   every image of a triangle of which this rank knows the corners, once: with the image of its first corner
+   lists all triangles of which this rank has all corners, periodic images included. Each image is
+   listed once, by its first corner.
 ------------------------------------------------------------------------- */
 
 void NearSurfaces::collect_triangles(double longest)

@@ -8,7 +8,8 @@
 
 namespace rbc {
 
-/// Cells in each aggregate and the statistics of these sizes. A cell that touches no other is an aggregate of one.
+/// Cells in each aggregate and the statistics of these sizes. A cell that touches no other is an
+/// aggregate of one.
 class AggregateSizes {
  public:
   /// Aggregates of at least `lower` and fewer than twice as many cells.

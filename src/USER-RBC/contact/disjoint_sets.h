@@ -6,7 +6,8 @@
 
 namespace rbc {
 
-/// The numbers below `size` in sets that can be united; each set is named after its smallest number.
+/// The numbers below `size` in sets that can be united; each set is named after its smallest
+/// number.
 class DisjointSets {
  public:
   explicit DisjointSets(int size) : parents_(size)

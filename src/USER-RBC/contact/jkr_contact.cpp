@@ -6,9 +6,9 @@
 
 namespace rbc {
 
-// Everything follows from y = sqrt(a / a0) and from two scales. a0 = (6 pi sigma R^2 / K)^(1/3) is the
-// radius of the contact at zero load, a0^2 / R the scale of lengths, and pi sigma R = K a0^3 / (6 R)
-// that of forces:
+// Everything follows from y = sqrt(a / a0) and from two scales. a0 = (6 pi sigma R^2 / K)^(1/3) is
+// the radius of the contact at zero load, a0^2 / R the scale of lengths, and pi sigma R = K a0^3 /
+// (6 R) that of forces:
 //   h = y^4 - (2/3) y,   F = 6 (y^6 - y^3),   U = (12/5) y^10 - 4 y^7 + y^4 - U_0
 // Contact is lost where dh/dy = 0: y^3 = 1/6, h = -y/2, U = 0.
 

@@ -7,8 +7,8 @@
 
 namespace rbc {
 
-/// A soft tip of radius R pressed into a flat by an overlap h, with the adhesion of Johnson, Kendall
-/// and Roberts (Proc. R. Soc. A 324 (1971) 301):
+/// A soft tip of radius R pressed into a flat by an overlap h, with the adhesion of Johnson,
+/// Kendall and Roberts (Proc. R. Soc. A 324 (1971) 301):
 ///   F = K a^3 / R - sqrt(6 pi sigma K a^3),   h = a^2 / R - (2/3) sqrt(6 pi sigma a / K)
 /// with the radius a of the contact, the effective modulus K (force per area) and the work of
 /// adhesion sigma (energy per area). An h below zero has two solutions a; this is the one that is

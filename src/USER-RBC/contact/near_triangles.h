@@ -22,17 +22,18 @@ struct VertexContact {
   double gap;            ///< distance, negative inside the surface
 };
 
-/// Finds for points the closest point on each closed triangulated surface near them. Surfaces have numbers; a point
-/// belongs to one and does not see it, or only some of its triangles. Triangles may be a part of a surface, as long as
-/// those that share a corner with one in reach are there. Positions are three numbers for each point, of points and
-/// corners in one array.
+/// Finds for points the closest point on each closed triangulated surface near them. Surfaces have
+/// numbers; a point belongs to one and does not see it, or only some of its triangles. Triangles
+/// may be a part of a surface, as long as those that share a corner with one in reach are there.
+/// Positions are three numbers for each point, of points and corners in one array.
 class NearTriangles {
  public:
   using Surface = std::int64_t;
   static constexpr Surface NO_SURFACE =
       std::numeric_limits<Surface>::min();    ///< a point of it sees nothing
 
-  /// Whether a point sees a triangle of its own surface, which is given by its place in the list of triangles.
+  /// Whether a point sees a triangle of its own surface, which is given by its place in the list
+  /// of triangles.
   using SeesOwn = std::function<bool(int point, int triangle)>;
 
   struct Triangle {
@@ -40,9 +41,10 @@ class NearTriangles {
     Surface surface;
   };
 
-  /// Finds what comes within `range` of each other before anything has moved by travel / 2; where neighbors have come
-  /// nearer by more than `slack` contacts() finds it anew. `surfaces[n]` is that of point n < points <= corners; triangles
-  /// have their corners among the `corners` first positions. Without `sees_own` points see nothing of their own surface.
+  /// Finds what comes within `range` of each other before anything has moved by travel / 2; where
+  /// neighbors have come nearer by more than `slack` contacts() finds it anew. `surfaces[n]` is
+  /// that of point n < points <= corners; triangles have their corners among the `corners` first
+  /// positions. Without `sees_own` points see nothing of their own surface.
   void build(int points, const Surface *surfaces, int corners, const double *x,
              const std::vector<Triangle> &triangles, double range, double slack, double travel,
              SeesOwn sees_own = {});
@@ -50,11 +52,13 @@ class NearTriangles {
   /// The same again for other positions.
   void rebuild(const double *x);
 
-  /// By how much at most a point and a triangle in reach of it have come nearer since that: small where both move
-  /// with the same flow. A flow that carries them along is allowed to move them by travel / 2.
+  /// By how much at most a point and a triangle in reach of it have come nearer since that: small
+  /// where both move with the same flow. A flow that carries them along is allowed to move them by
+  /// travel / 2.
   double largest_approach(const double *x);
 
-  /// All points nearer than range to a surface: one contact for each such surface. Rebuilds if it must.
+  /// All points nearer than range to a surface: one contact for each such surface. Rebuilds if it
+  /// must.
   const std::vector<VertexContact> &contacts(const double *x, double range);
 
   std::size_t bytes() const;

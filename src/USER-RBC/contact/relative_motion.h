@@ -10,14 +10,16 @@ class RelativeMotion {
   /// Positions, three numbers for each point, from which displacements count.
   void hold(const double *x, int points, double near);
 
-  /// Bounds of the difference of the displacements of any two points: infinite if one is not a number.
+  /// Bounds of the difference of the displacements of any two points: infinite if one is not a
+  /// number.
   struct Differences {
     double near;     ///< where they were nearer than `near`
     double wider;    ///< where they were nearer than twice that
   };
   Differences differences(const double *x);
 
-  /// Bound of the difference, when last asked for and finite, to any point that was nearer than `near`; 0 after hold().
+  /// Bound of the difference, when last asked for and finite, to any point that was nearer than
+  /// `near`; 0 after hold().
   double around(int point) const { return around_[bin_[point]]; }
 
   std::size_t bytes() const;

@@ -31,8 +31,8 @@ inline void add_up(std::vector<TouchedShare> &shares)
   if (!shares.empty()) shares.erase(sum + 1, shares.end());
 }
 
-/// Unites the cells of which either has at least the share `least` near the other; any share will do if that is 0. The
-/// share of a pair may come in parts.
+/// Merges cells a and b if the fraction of the surface of either that is near the other is at least
+/// `least`. Any fraction merges them if `least` is 0. The fraction of a pair may come in parts.
 inline void unite_touching(DisjointSets &cells, std::vector<TouchedShare> shares, double least)
 {
   add_up(shares);

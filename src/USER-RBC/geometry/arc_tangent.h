@@ -4,9 +4,10 @@
 
 namespace rbc {
 
-/// atan2(y, x) of finite numbers that are not both zero, to 3e-16 of its value, without a branch: loops over it
-/// vectorise. Ratio of the smaller to the larger, brought to |z| <= 0.66, and there the rational function of Cephes
-/// (Moshier, Methods and programs for mathematical functions, 1989).
+/// atan2(y, x) of finite numbers that are not both zero, to 3e-16 of its value, without a branch:
+/// loops over it vectorise. Ratio of the smaller to the larger, brought to |z| <= 0.66, and there
+/// the rational function of Cephes (Moshier, Methods and programs for mathematical functions,
+/// 1989).
 inline double arc_tangent(double y, double x)
 {
   constexpr double pi = 3.14159265358979323846;

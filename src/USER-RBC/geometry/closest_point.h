@@ -7,8 +7,9 @@
 
 namespace rbc {
 
-/// Weights of a triangle's corners a, b, c at the point of it that is closest to x. A weight is exactly zero where that
-/// point is on the edge opposite, or at another corner (Ericson, Real-Time Collision Detection, 2005, section 5.1.5).
+/// Weights of a triangle's corners a, b, c at the point of it that is closest to x. A weight is
+/// exactly zero where that point is on the edge opposite, or at another corner (Ericson, Real-Time
+/// Collision Detection, 2005, section 5.1.5).
 inline std::array<double, 3> closest_point_weights(PlainVector x, PlainVector a, PlainVector b,
                                                    PlainVector c)
 {
@@ -46,7 +47,8 @@ inline PlainVector weighted_point(const std::array<double, 3> &weight, PlainVect
   return weight[0] * a + weight[1] * b + weight[2] * c;
 }
 
-/// Square of the distance from x to a triangle, without branches: for loops that are to be vectorised.
+/// Square of the distance from x to a triangle, without branches: for loops that are to be
+/// vectorised.
 inline double triangle_distance_square(PlainVector x, PlainVector a, PlainVector b, PlainVector c)
 {
   const PlainVector ab = b - a, bc = c - b, ca = a - c;

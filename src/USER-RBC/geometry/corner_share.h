@@ -6,9 +6,9 @@
 
 namespace rbc {
 
-/// Shares of a triangle's area nearest to each of its corners, from its edges out of corner 0: cut at the
-/// circumcentre, or at the middle of the longest edge if the triangle is obtuse (Meyer et al., Visualization and
-/// Mathematics III (2003) 35).
+/// Shares of a triangle's area nearest to each of its corners, from its edges out of corner 0: cut
+/// at the circumcentre, or at the middle of the longest edge if the triangle is obtuse (Meyer et
+/// al., Visualization and Mathematics III (2003) 35).
 inline std::array<double, 3> mixed_corner_shares(const Vec3 &e1, const Vec3 &e2)
 {
   const double a = e1.squaredNorm(), b = e2.squaredNorm(), d = e1.dot(e2);

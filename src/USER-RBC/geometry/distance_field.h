@@ -7,7 +7,8 @@
 
 namespace rbc {
 
-/// Signed distance from a closed surface, negative inside: exact on the nodes of a grid, trilinear in between.
+/// Signed distance from a closed surface, negative inside: exact on the nodes of a grid, trilinear
+/// in between.
 class DistanceField {
  public:
   struct Sample {

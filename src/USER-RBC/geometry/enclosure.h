@@ -11,7 +11,8 @@ class Enclosure {
 
   virtual bool contains(const Vec3 &x) const = 0;
 
-  /// Unit normal, pointing inward, of the boundary within `distance` of a point inside; 0 if it is not known.
+  /// Unit normal, pointing inward, of the boundary within `distance` of a point inside; 0 if it is
+  /// not known.
   virtual Vec3 inward(const Vec3 &x, double distance) const = 0;
 
   struct Excess {

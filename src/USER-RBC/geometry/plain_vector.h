@@ -4,8 +4,8 @@
 
 namespace rbc {
 
-/// Three numbers and no more. Compilers take loops over them apart and vectorise these, which they do not with
-/// Eigen's vectors.
+/// Three numbers and no more. Compilers take loops over them apart and vectorise these, which they
+/// do not with Eigen's vectors.
 struct PlainVector {
   double x, y, z;
 };

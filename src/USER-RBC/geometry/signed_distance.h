@@ -24,11 +24,11 @@ struct TriangleFeature {
   }
 };
 
-/// Outward directions, not of unit length, at the face, edges and corners of a triangle of a closed
-/// surface. A point is outside if its line from the closest point of the surface goes along the
-/// direction there. At an edge this is the sum of both normals; at a corner the normals are weighted
-/// with the angles of their triangles (Baerentzen and Aanaes, IEEE Trans Vis Comput Graph 11 (2005)
-/// 243).
+/// Outward directions, not of unit length, at the face, edges and corners of a triangle of a
+/// closed surface. A point is outside if its line from the closest point of the surface goes along
+/// the direction there. At an edge this is the sum of both normals; at a corner the normals are
+/// weighted with the angles of their triangles (Baerentzen and Aanaes, IEEE Trans Vis Comput Graph
+/// 11 (2005) 243).
 struct FeatureNormals {
   Vec3 face;
   std::array<Vec3, 3> edge;    ///< opposite to each corner
@@ -53,9 +53,9 @@ struct FeatureNormals {
   }
 };
 
-/// Normals of all triangles of a closed surface with `vertices` vertices. vertex(t, c) is the number
-/// of the vertex at a corner, neighbor(t, c) the triangle across the edge from that corner to the
-/// next.
+/// Normals of all triangles of a closed surface with `vertices` vertices. vertex(t, c) is the
+/// number of the vertex at a corner, neighbor(t, c) the triangle across the edge from that corner
+/// to the next.
 template <typename Vertex, typename Neighbor>
 std::vector<FeatureNormals> feature_normals(const std::vector<Triangle> &triangles, int vertices,
                                             const Vertex &vertex, const Neighbor &neighbor)

@@ -57,8 +57,8 @@ class SpatialBins {
   int count_[3];
 };
 
-/// Adds to each bin's value those of the bins around it, in boxes numbered as those of SpatialBins, `count` along each
-/// direction. `scratch` is of no use afterwards.
+/// Adds to each bin's value those of the bins around it, in boxes numbered as those of
+/// SpatialBins, `count` along each direction. `scratch` is of no use afterwards.
 template <typename Value>
 void merge_neighbors(const int (&count)[3], std::vector<Value> &values, std::vector<Value> &scratch)
 {

@@ -20,28 +20,29 @@ struct ReferenceHinge {
   double dual;    ///< distance of the circumcentres of its triangles, laid flat
 };
 
-/// Edge from a to b with the two triangles it joins: (a, b, c) to its left and (b, a, d) to its right, seen from
-/// outside.
+/// Edge from a to b with the two triangles it joins: (a, b, c) to its left and (b, a, d) to its
+/// right, seen from outside.
 struct Hinge {
   int a, b, c, d;
   int left, right;
 };
 
-/// Closed oriented triangulated surface: topology and rest shape shared by all cells made from it. Its own triangles
-/// are free of stress unless it takes those of another surface. Lengths in the units of the coordinates.
+/// Closed oriented triangulated surface: topology and rest shape shared by all cells made from it.
+/// Its own triangles are free of stress unless it takes those of another surface. Lengths in the
+/// units of the coordinates.
 class SurfaceTemplate {
  public:
   using Corners = std::array<int, 3>;
 
-  /// Throws std::invalid_argument, saying why, unless the triangles form one closed surface that is oriented
-  /// right-handed outward and uses every vertex.
+  /// Throws std::invalid_argument, saying why, unless the triangles form one closed surface that
+  /// is oriented right-handed outward and uses every vertex.
   SurfaceTemplate(std::vector<Vec3> vertices, std::vector<Corners> triangles);
 
   int vertex_count() const { return static_cast<int>(vertices.size()); }
   int size() const { return vertex_count(); }    ///< former name, for callers not changed yet
 
-  /// Takes the stress-free triangles of another surface. Throws std::invalid_argument, saying which triangle differs,
-  /// unless it joins the same vertices.
+  /// Takes the stress-free triangles of another surface. Throws std::invalid_argument, saying
+  /// which triangle differs, unless it joins the same vertices.
   void take_reference(const SurfaceTemplate &stress_free);
 
   std::vector<Vec3> vertices;

@@ -2,8 +2,8 @@
 
 namespace rbc {
 
-/// Calls f(n) for n < count in any order, many at once where f allows it: no branches, no calls that are not inlined,
-/// vectors only of numbers by name (PlainVector).
+/// Calls f(n) for n < count in any order, many at once where f allows it: no branches, no calls
+/// that are not inlined, vectors only of numbers by name (PlainVector).
 template <typename Function>
 [[gnu::always_inline]] inline void for_each(int count, const Function &f)
 {

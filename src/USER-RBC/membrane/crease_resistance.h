@@ -6,8 +6,9 @@
 
 namespace rbc {
 
-/// Resists folds sharper than a mesh can show: nothing up to an angle theta_c between the normals of neighboring
-/// triangles, k_c (cos theta_c - cos theta)^2 / (1 + cos theta) beyond, which grows without bound towards 180 degrees.
+/// Resists folds sharper than a mesh can show: nothing up to an angle theta_c between the normals
+/// of neighboring triangles, k_c (cos theta_c - cos theta)^2 / (1 + cos theta) beyond, which grows
+/// without bound towards 180 degrees.
 struct CreaseResistance {
   double stiffness = 0;    ///< k_c, energy
   double cosine = 0;       ///< of theta_c

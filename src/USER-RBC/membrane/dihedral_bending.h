@@ -17,15 +17,16 @@ inline HingeEnergy dihedral_bending(double stiffness, double sine, double cosine
           stiffness * (sine * rest_cosine - cosine * rest_sine)};
 }
 
-/// k_b with which equilateral triangles have the Helfrich modulus kappa, beside a Gaussian modulus of -4/3 kappa
-/// (Seung & Nelson, Phys. Rev. A 38 (1988) 1005).
+/// k_b with which equilateral triangles have the Helfrich modulus kappa, beside a Gaussian modulus
+/// of -4/3 kappa (Seung & Nelson, Phys. Rev. A 38 (1988) 1005).
 inline double dihedral_stiffness(double kappa)
 {
   return 2 * kappa / std::sqrt(3.0);
 }
 
-/// theta0 for the spontaneous curvature c0 (sum of both principal curvatures): that of triangles inscribed in a sphere
-/// of radius 2/c0, to second order in their size. `dual` is the distance between their circumcentres.
+/// theta0 for the spontaneous curvature c0 (sum of both principal curvatures): that of triangles
+/// inscribed in a sphere of radius 2/c0, to second order in their size. `dual` is the distance
+/// between their circumcentres.
 inline double dihedral_rest_angle(double c0, double dual)
 {
   return c0 / 2 * dual;

@@ -2,8 +2,8 @@
 
 namespace rbc {
 
-/// Energy of a vertex and its derivatives with respect to its area A and to the integral of the mean curvature over
-/// it.
+/// Energy of a vertex and its derivatives with respect to its area A and to the integral of the
+/// mean curvature over it.
 struct VertexEnergy {
   double value, by_area, by_integral;
 };

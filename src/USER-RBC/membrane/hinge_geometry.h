@@ -4,7 +4,8 @@
 
 namespace rbc {
 
-/// Of the angle between the normals of the triangles of a hinge, positive where the surface is convex.
+/// Of the angle between the normals of the triangles of a hinge, positive where the surface is
+/// convex.
 struct HingeAngle {
   double sine, cosine;
 };

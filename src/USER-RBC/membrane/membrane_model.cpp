@@ -14,10 +14,15 @@ namespace rbc {
 
 namespace {
 
-// cosines of the angle between the normals of two triangles: 175 degrees; 120 degrees, to all neighbors of an inverted one.
-// In a wrinkle as narrow as a triangle that one stands upright, 90 degrees from all of them, and comes back.
+// Cosine of the largest angle between the normals of two neighbors, 175 degrees. Beyond it they are
+// folded onto each other.
 
-constexpr double SHARPEST_FOLD = -0.9962, FOLDED_OVER = -0.5;
+constexpr double SHARPEST_FOLD = -0.9962;
+
+// Cosine of 120 degrees. A triangle whose normal is further than that from those of all neighbors
+// is inverted. In a wrinkle as narrow as a triangle the angles are 90 degrees, and it comes back.
+
+constexpr double FOLDED_OVER = -0.5;
 
 inline PlainVector position(const double *x, int vertex)
 {

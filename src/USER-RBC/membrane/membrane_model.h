@@ -38,10 +38,10 @@ struct MembraneEnergy {
   double total() const { return sheet + bending + area + volume; }
 };
 
-/// Forces of an elastic membrane on the vertices of a cell: linear triangles carry a hyperelastic sheet. Bending is
-/// that of vertices, the Helfrich energy  2 kappa sum_v A_v (H_v - H0_v)^2  with H_v = sum_e l_e theta_e / (4 A_v)
-/// over the edges e of vertex v (Juelicher, J. Phys. II France 6 (1996) 1797) and the areas A_v of the template's
-/// shares of each triangle; or that of hinges.
+/// Forces of an elastic membrane on the vertices of a cell: linear triangles carry a hyperelastic
+/// sheet. Bending is that of vertices, the Helfrich energy  2 kappa sum_v A_v (H_v - H0_v)^2  with
+/// H_v = sum_e l_e theta_e / (4 A_v) over the edges e of vertex v (Juelicher, J. Phys. II France 6
+/// (1996) 1797) and the areas A_v of the template's shares of each triangle; or that of hinges.
 class MembraneModel {
  public:
   MembraneModel(const SurfaceTemplate &shape, const MembraneParameters &parameters);
@@ -54,22 +54,24 @@ class MembraneModel {
   /// Whether forces() needs the size of the whole cell.
   bool needs_size() const { return parameters_.global_area > 0 || parameters_.volume > 0; }
 
-  /// Makes this the current cell, which all functions below work on. Positions must be relative to a
-  /// nearby origin. They and `elements` are kept by reference.
+  /// Makes this the current cell, which all functions below work on. Positions must be relative to
+  /// a nearby origin. They and `elements` are kept by reference.
   void set_cell(const CellElements &elements, const std::vector<Vec3> &x);
 
   /// This rank's share of the size.
   AreaVolume size() const;
 
-  /// dV/dx of the vertices owned (others are left undefined), an entry for each vertex of the template.
+  /// dV/dx of the vertices owned (others are left undefined), an entry for each vertex of the
+  /// template.
   void volume_gradient(Vec3 *gradient) const;
 
-  /// Says which triangle is folded over by more than 120 degrees against all three neighbors, or which two are folded onto
-  /// each other: the mesh does not resolve the shape, or parts of it have passed through others. Empty if there are none.
+  /// Says which triangle is folded over by more than 120 degrees against all three neighbors, or
+  /// which two are folded onto each other: the mesh does not resolve the shape, or parts of it
+  /// have passed through others. Empty if there are none.
   std::string find_flaw();
 
-  /// Forces on the vertices owned (others are left undefined) and this rank's share of the energy. `size` is that of
-  /// the whole cell.
+  /// Forces on the vertices owned (others are left undefined) and this rank's share of the energy.
+  /// `size` is that of the whole cell.
   MembraneEnergy forces(const AreaVolume &size, std::vector<Vec3> &f);
 
  private:

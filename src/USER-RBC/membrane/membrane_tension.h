@@ -6,8 +6,9 @@
 
 namespace rbc {
 
-/// Isotropic tension (T1 + T2)/2 of the membrane at each vertex of a whole cell, bending apart: that of the triangles
-/// around it, in proportion to their area. With T1 = dW/dlambda1 / lambda2 it is  i1/J dW/di1 + dW/dJ.
+/// Isotropic tension (T1 + T2)/2 of the membrane at each vertex of a whole cell, bending apart:
+/// that of the triangles around it, in proportion to their area. With T1 = dW/dlambda1 / lambda2
+/// it is  i1/J dW/di1 + dW/dJ.
 inline void vertex_tension(const SurfaceTemplate &shape, const MembraneParameters &parameters,
                            const std::vector<Vec3> &x, std::vector<double> &tension)
 {

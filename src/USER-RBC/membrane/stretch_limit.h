@@ -6,8 +6,8 @@
 
 namespace rbc {
 
-/// Stiffens a sheet beyond a stretch lambda_c: k / 2 (i1 - i1_c)^2 per stress-free area where i1 exceeds
-/// i1_c = lambda_c^2 + 1 / lambda_c^2, that of a uniaxial stretch at constant area.
+/// Stiffens a sheet beyond a stretch lambda_c: k / 2 (i1 - i1_c)^2 per stress-free area where i1
+/// exceeds i1_c = lambda_c^2 + 1 / lambda_c^2, that of a uniaxial stretch at constant area.
 struct StretchLimit {
   double stiffness = 0;    ///< k, force per length
   double i1 = 0;           ///< i1_c

@@ -2,8 +2,8 @@
 
 namespace rbc {
 
-/// Shear viscosity of a membrane (force time / length) at a rate of shear, from `slow` at rest to `fast`: half of the
-/// fall is at `rate` (Cross, J. Colloid Sci. 20 (1965) 417, with exponent 1).
+/// Shear viscosity of a membrane (force time / length) at a rate of shear, from `slow` at rest to
+/// `fast`: half of the fall is at `rate` (Cross, J. Colloid Sci. 20 (1965) 417, with exponent 1).
 class SurfaceViscosity {
  public:
   SurfaceViscosity(double constant = 0) : slow_(constant), fast_(constant) {}

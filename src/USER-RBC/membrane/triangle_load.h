@@ -4,8 +4,8 @@
 
 namespace rbc {
 
-/// What acts on a triangle with the edges e1 and e2 out of its corner 0, summed up to forces on its corners. Each
-/// part adds minus the gradient of an energy.
+/// What acts on a triangle with the edges e1 and e2 out of its corner 0, summed up to forces on
+/// its corners. Each part adds minus the gradient of an energy.
 class TriangleLoad {
  public:
   TriangleLoad(PlainVector e1, PlainVector e2, PlainVector normal, double twice_area) :
@@ -46,7 +46,8 @@ class TriangleLoad {
     n2_ += third;
   }
 
-  /// Derivatives with respect to the angles of the edges that face each corner, over the edge's length.
+  /// Derivatives with respect to the angles of the edges that face each corner, over the edge's
+  /// length.
   void add_moments(double by_angle0, double by_angle1, double by_angle2)
   {
     const double p0 = by_angle0 / twice_area_, p1 = by_angle1 / twice_area_,
@@ -58,8 +59,8 @@ class TriangleLoad {
     n2_ += p2 * m11_ - p0 * at1 - p1 * m12_;
   }
 
-  /// Derivatives with respect to the lengths of the edges that face each corner, over the length. Of the two
-  /// triangles at an edge each takes half.
+  /// Derivatives with respect to the lengths of the edges that face each corner, over the length.
+  /// Of the two triangles at an edge each takes half.
   void add_pulls(double by_length0, double by_length1, double by_length2)
   {
     s11_ += by_length2 + by_length0;

@@ -22,9 +22,10 @@ struct PointData {
   std::vector<std::string> labels;    ///< integers, each the same at all vertices of a surface
 };
 
-/// A VTK XML file of PolyData that holds closed surfaces: vertices and triangles in the order of their templates, arrays
-/// and labels at each vertex, the time as field data. Every surface has its place in the file, so they may come in any
-/// order, and only one of them need be in memory. All throw std::runtime_error, naming the file and the reason.
+/// A VTK XML file of PolyData that holds closed surfaces: vertices and triangles in the order of
+/// their templates, arrays and labels at each vertex, the time as field data. Every surface has
+/// its place in the file, so they may come in any order, and only one of them need be in memory.
+/// All throw std::runtime_error, naming the file and the reason.
 class VtpWriter {
  public:
   /// Surfaces made from one template, which must outlive the writer.
@@ -35,7 +36,8 @@ class VtpWriter {
 
   VtpWriter(std::string path, double time, const PointData &data, const std::vector<Block> &blocks);
 
-  /// `values` holds the positions of all vertices, then the arrays one after another; `labels` one for each.
+  /// `values` holds the positions of all vertices, then the arrays one after another; `labels` one
+  /// for each.
   void write(int block, std::int64_t cell, const double *labels, const double *values);
 
   void close();

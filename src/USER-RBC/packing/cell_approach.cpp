@@ -29,7 +29,8 @@ bool may_dip_below(double limit, double length, const Seen &a, const Seen &b)
   return a.sample.distance + b.sample.distance - largest_slope * length < 2 * limit;
 }
 
-/// Looks for a point of the edge that is nearer than both its ends, where the distance stops to fall.
+/// Looks for a point of the edge that is nearer than both its ends, where the distance stops to
+/// fall.
 bool find_dip(const DistanceField &field, const Seen &a, const Seen &b, Seen &dip)
 {
   const Vec3 along = b.place - a.place;

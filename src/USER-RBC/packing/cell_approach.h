@@ -6,7 +6,8 @@
 
 namespace rbc {
 
-/// Vertices and edges of one cell, the probe, in the distance field of another of the same size, the body.
+/// Vertices and edges of one cell, the probe, in the distance field of another of the same size,
+/// the body.
 class CellApproach {
  public:
   /// Those that are nearer than `reach`, lengths in those of the template.
@@ -14,8 +15,9 @@ class CellApproach {
 
   bool empty() const { return vertices_.empty(); }
 
-  /// On the probe: down the energy (clearance - distance)^2 / 2, summed over the vertices, and the points of edges
-  /// closest to the body, that are nearer than `clearance`. The body is pushed the other way at the same places.
+  /// On the probe: down the energy (clearance - distance)^2 / 2, summed over the vertices, and the
+  /// points of edges closest to the body, that are nearer than `clearance`. The body is pushed the
+  /// other way at the same places.
   void push(const RigidCell &probe, const RigidCell &body, double clearance, Wrench &push) const;
 
  private:

@@ -11,7 +11,8 @@ namespace rbc {
 
 namespace {
 
-// Lengths are in those of the templates: they shrink with the cells. Those below are in radii of the largest cell.
+// Lengths are in those of the templates: they shrink with the cells. Those below are in radii of
+// the largest cell.
 constexpr double field_reach = 0.1;         // beyond the gap
 constexpr double growing_overlap = 0.04;    // above which cells do not grow
 constexpr double largest_move = 0.02;
@@ -295,7 +296,8 @@ void CellPacking::resize(double size)
 }
 
 /* ----------------------------------------------------------------------
-   until no overlap is left but a part of the margin; cells that grow do so to full size where there is room
+   until no overlap is left but a part of the margin. Growing cells reach full size where there is
+   room.
 ------------------------------------------------------------------------- */
 
 bool CellPacking::settle(int steps, bool growing)
@@ -323,7 +325,8 @@ bool CellPacking::settle(int steps, bool growing)
 }
 
 /* ----------------------------------------------------------------------
-   distances of the surfaces themselves; widens the margin where the fields do not tell them well enough
+   checks the distances of the surfaces themselves. The margin widens where the distance fields were
+   not exact enough.
 ------------------------------------------------------------------------- */
 
 bool CellPacking::check()

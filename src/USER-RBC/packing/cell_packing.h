@@ -21,9 +21,10 @@ struct Ranks {
       [](const std::vector<double> &mine) { return mine; };
 };
 
-/// Packs rigid cells at random, without overlap: small ones at random places and in random directions grow, and push
-/// each other aside where they touch. All ranks know all places; each finds its share of the forces, and these are
-/// summed in one order, so that the result does not depend on the number of ranks.
+/// Packs rigid cells at random, without overlap: small ones at random places and in random
+/// directions grow, and push each other aside where they touch. All ranks know all places; each
+/// finds its share of the forces, and these are summed in one order, so that the result does not
+/// depend on the number of ranks.
 class CellPacking {
  public:
   /// Cells of `kinds`, which number the templates.

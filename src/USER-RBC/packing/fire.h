@@ -6,8 +6,8 @@
 
 namespace rbc {
 
-/// Fast inertial relaxation engine: motion of unit masses that is led down the forces and stops when it goes up. Bitzek
-/// et al., Phys Rev Lett 97, 170201 (2006).
+/// Fast inertial relaxation engine: motion of unit masses that is led down the forces and stops
+/// when it goes up. Bitzek et al., Phys Rev Lett 97, 170201 (2006).
 class Fire {
  public:
   Fire(std::size_t size, double time_step, double largest_time_step, double largest_move) :

@@ -41,7 +41,8 @@ struct RigidCell {
   Vec3 body(const Vec3 &x) const { return rotation.transpose() * (x - centre) / size; }
 };
 
-/// Force and torque about the centre of a cell, and by how much it overlaps most. Lengths in those of the template.
+/// Force and torque about the centre of a cell, and by how much it overlaps most. Lengths in those
+/// of the template.
 struct Wrench {
   Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
   double overlap = 0;

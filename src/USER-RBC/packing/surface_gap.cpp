@@ -16,7 +16,8 @@ struct BoundedTriangle {
   }
 };
 
-/// Triangles that may come within `reach` of the other cell, by the distance of their corners in its field.
+/// Triangles that may come within `reach` of the other cell, by the distance of their corners in
+/// its field.
 std::vector<BoundedTriangle> facing(const RigidCell &cell, const RigidCell &other, double reach)
 {
   const SurfaceTemplate &surface = cell.shape->surface;

@@ -4,7 +4,8 @@
 
 namespace rbc {
 
-/// Least distance of the surfaces of two cells, exact up to `reach`, beyond which it is `reach`; 0 if they intersect.
+/// Least distance of the surfaces of two cells, exact up to `reach`, beyond which it is `reach`; 0
+/// if they intersect.
 double surface_gap(const RigidCell &a, const RigidCell &b, double reach);
 
 /// Of a point from the surface of a cell, likewise; 0 inside.

@@ -10,12 +10,13 @@
 
 namespace rbc {
 
-/// Which triangles of a surface meet, also behind periodic faces of a box through which the surface goes on.
+/// Which triangles of a surface meet, also behind periodic faces of a box through which the
+/// surface goes on.
 class MeshConnectivity {
  public:
-  /// Joins corners at the same place, takes out triangles that have no area then, and puts the ends of the surface on the
-  /// faces exactly. Throws std::invalid_argument, saying where, unless the surface is closed and all triangles are
-  /// oriented alike.
+  /// Joins corners at the same place, takes out triangles that have no area then, and puts the
+  /// ends of the surface on the faces exactly. Throws std::invalid_argument, saying where, unless
+  /// the surface is closed and all triangles are oriented alike.
   MeshConnectivity(std::vector<Triangle> &triangles, const PackingBox &box);
 
   int vertices() const { return static_cast<int>(places_.size()); }

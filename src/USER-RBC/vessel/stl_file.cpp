@@ -12,7 +12,8 @@ namespace rbc {
 
 namespace {
 
-// of the binary format: title, number of triangles; then a normal, three corners and an attribute for each
+// of the binary format: title, number of triangles; then a normal, three corners and an attribute
+// for each
 constexpr std::size_t title_bytes = 80, header_bytes = title_bytes + 4, record_bytes = 50,
                       normal_bytes = 12;
 

@@ -7,7 +7,8 @@
 
 namespace rbc {
 
-/// Triangles of an STL file, text or binary. Throws std::invalid_argument, saying what is wrong with it.
+/// Triangles of an STL file, text or binary. Throws std::invalid_argument, saying what is wrong
+/// with it.
 std::vector<Triangle> read_stl(const std::string &path);
 
 }    // namespace rbc

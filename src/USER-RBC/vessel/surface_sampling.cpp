@@ -96,7 +96,8 @@ void SurfaceSampling::find_crossings()
   }
 }
 
-/// A line across a face of the grid stands for a part of the surface as large as the face seen along its normal.
+/// A line across a face of the grid stands for a part of the surface as large as the face seen
+/// along its normal.
 void SurfaceSampling::add_crossing(Vec3 in, Vec3 out, double tolerance, int direction,
                                    double cell_area)
 {
@@ -215,7 +216,8 @@ void SurfaceSampling::keep_in_box(Vec3 &x) const
 }
 
 /* ----------------------------------------------------------------------
-   onto the surface along the last normal known, or, past an edge, towards the inside of where the point was before
+   moves a point onto the surface along the last normal known. Past an edge there is no surface that
+   way; then the point moves towards the inside of where it was before.
 ------------------------------------------------------------------------- */
 
 void SurfaceSampling::project(int n, double tolerance)

@@ -7,9 +7,9 @@
 
 namespace rbc {
 
-/// Points on the surface of an enclosure, nearly as far apart as those of a lattice of equilateral triangles: some of
-/// those in which the lines of a fine grid cross the surface, which then push each other aside along it. The same
-/// wherever it is computed.
+/// Points on the surface of an enclosure, nearly as far apart as those of a lattice of equilateral
+/// triangles: some of those in which the lines of a fine grid cross the surface, which then push
+/// each other aside along it. The same wherever it is computed.
 class SurfaceSampling {
  public:
   /// Looks in the part of the box from lo to hi, which may be all of a periodic direction.

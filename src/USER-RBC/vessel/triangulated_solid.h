@@ -13,11 +13,13 @@
 
 namespace rbc {
 
-/// What a triangulated surface encloses. The surface is closed, or leaves the box through periodic faces and comes back
-/// through those opposite: then it goes on through all images of the box in these directions.
+/// What a triangulated surface encloses. The surface is closed, or leaves the box through periodic
+/// faces and comes back through those opposite: then it goes on through all images of the box in
+/// these directions.
 class TriangulatedSolid {
  public:
-  /// Throws std::invalid_argument, saying why, unless the surface is closed and consistently oriented.
+  /// Throws std::invalid_argument, saying why, unless the surface is closed and consistently
+  /// oriented.
   TriangulatedSolid(std::vector<Triangle> triangles, const PackingBox &box);
 
   /// Points on the surface are inside.
@@ -71,8 +73,8 @@ class TriangulatedSolid {
   Vec3 wrapped(const Vec3 &x) const;
   Vec3 centre(std::size_t cell) const;
 
-  /// What the cell around a place tells of its distance from the surface: it differs from that of the centre by at most
-  /// the way from there.
+  /// What the cell around a place tells of its distance from the surface: it differs from that of
+  /// the centre by at most the way from there.
   struct Estimate {
     double distance, error;
     double largest() const { return 1.001 * (std::abs(distance) + error); }
