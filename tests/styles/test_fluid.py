@@ -32,12 +32,15 @@ VELOCITY = [f"velocity[{n}]" for n in (1, 2, 3)]
 
 
 def discrete_profile(force, lower, upper):
-    """Exact solution of the discrete momentum balance at the cell centres; ghosts mirror the plates."""
+    """Exact solution of the discrete momentum balance at the cell centres. Ghosts mirror the plates; a plate
+    whose velocity is None exerts no shear."""
     h = H / N
     matrix = np.diag(np.full(N, -2.0)) + np.diag(np.ones(N - 1), 1) + np.diag(np.ones(N - 1), -1)
     right = np.full(N, -force * h * h / ETA)
     for at, wall in ((0, lower), (-1, upper)):
-        matrix[at, at] -= 1
+        matrix[at, at] -= 1 if wall is not None else -1
+        if wall is None:
+            continue
         right[at] -= 2 * wall
     return np.linalg.solve(matrix, right)
 
@@ -96,6 +99,37 @@ class Steady(unittest.TestCase):
         for ranks in (1, 4):
             with self.subTest(ranks=ranks):
                 self.check(ranks, (1e-3, -2e-3, 5e-3), (0.002, 0, 0), (0, -0.003, 0))
+
+    def test_a_plate_that_slips(self):
+        force = (1e-3, -2e-3, 5e-3)
+        for ranks in (1, 4):
+            for side in ("zlo", "zhi"):
+                with self.subTest(ranks=ranks, side=side):
+                    held = "wall {} 0.002 -0.001 0".format("zhi" if side == "zlo" else "zlo")
+                    result = run(fluid_scene(" ".join(map(str, force)), None, run="run 2",
+                                             regime=f"inertia none wall {side} slip {held}",
+                                             dump=grid_dump(2, *VELOCITY)), ranks)
+                    data = result.dump("grid.dump").frames[-1].reshape(N, 4, 6, 3)
+                    walls = [(None, u) if side == "zlo" else (u, None) for u in (0.002, -0.001)]
+                    expected = [discrete_profile(force[c], *walls[c]) for c in range(2)] + [np.zeros(N)]
+                    for c in range(3):
+                        np.testing.assert_allclose(
+                            data[..., c], np.broadcast_to(expected[c][:, None, None], (N, 4, 6)), atol=1e-11)
+                    shear = [force[0] * H, force[1] * H, force[2] * H / 2]
+                    free = [0, 0, force[2] * H / 2]
+                    tractions = [*free, *shear] if side == "zlo" else [*shear, *free]
+                    np.testing.assert_allclose(vector(result.thermo)[:6], tractions, atol=1e-12)
+
+    def test_both_plates_slip(self):
+        """With inertia the force accelerates the fluid as a whole."""
+        for scheme in ("coupled", "projection"):
+            with self.subTest(scheme=scheme):
+                thermo = run(fluid_scene("1e-3 -2e-3 0", None, run="run 8",
+                                         regime=f"inertia unsteady scheme {scheme} wall zlo slip wall zhi slip")).thermo
+                for n, force in ((7, 1e-3), (8, -2e-3)):
+                    np.testing.assert_allclose(thermo[f"f_flow[{n}]"], force / RHO * thermo["Time"], rtol=1e-10,
+                                               atol=1e-18)
+                np.testing.assert_array_equal([thermo[f"f_flow[{n}]"][-1] for n in (1, 2, 4, 5)], 0)
 
     def test_couette_energy_in_the_limit(self):
         result, _ = self.flow(1, upper=(0.003, 0, 0))

@@ -70,6 +70,10 @@ FLUID_ERRORS = {
     "wall side unknown": (dict(fluid=FLUID + " wall xlo 0 0 0"), ["rbc/fluid", "wall", "xlo", "zlo or zhi"]),
     "wall without side": (dict(fluid=FLUID + " wall"), ["fix rbc/fluid wall", "missing"]),
     "wall without velocity": (dict(fluid=FLUID + " wall zlo 0 0"), ["fix rbc/fluid wall", "missing"]),
+    "wall without condition": (dict(fluid=FLUID + " wall zlo"), ["fix rbc/fluid wall", "missing"]),
+    "wall condition unknown": (dict(fluid=FLUID + " wall zlo stick 0 0"), ["rbc/fluid", "wall", "stick"]),
+    "no wall that holds": (dict(fluid=FREE + " wall zlo slip wall zhi slip"),
+                           ["rbc/fluid", "wall slip", "both", "inertia unsteady or convective", "mean velocity"]),
     "wall on a periodic side": (dict(boundary="boundary p p p"), ["rbc/fluid", "wall", "zlo", "periodic"]),
     "wall along z": (dict(fluid=FLUID + " wall zhi 0 0 0.1"), ["rbc/fluid", "wall", "zhi", "0.1", "must be 0"]),
     "wall along z by a variable": (dict(fluid="variable w equal 0\n" + FLUID + " wall zhi 0 0 v_w"),
@@ -175,10 +179,11 @@ class Fluid(BadInput):
                  "cells": None}
         table = {}
         for name, change in (("grid", ("dx 1.0", "dx 0.75")), ("inertia", ("unsteady", "convective")),
-                             ("scheme", ("wall zlo", "scheme projection wall zlo"))):
+                             ("scheme", ("wall zlo", "scheme projection wall zlo")),
+                             ("plates", ("wall zlo 0 0 0", "wall zlo slip"))):
             again = scene(**{**later, "fluid": UNSTEADY.replace(*change), "run": "run 0"})
             table[name] = (dict(fluid=UNSTEADY, run="run 0\nwrite_restart r\nclear\n" + again),
-                           ["rbc/fluid flow", "restart file", "grid of 12 12 12", "another inertia or scheme",
+                           ["rbc/fluid flow", "restart file", "grid of 12 12 12", "other plates", "another inertia or scheme",
                             "another fix ID"])
         self.check(table, ranks=2)
 

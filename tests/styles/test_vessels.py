@@ -159,7 +159,7 @@ class Surface(Case):
 
     def test_errors(self):
         for words, message in (("nope type 2 spacing 1", "Region ID nope for rbc/surface does not exist"),
-                               ("tube type 3 spacing 1", "Rbc/surface type 3 must be between 1 and 2"),
+                               ("tube type 3 spacing 1", "Rbc/surface type value 3 must be 1 or 2"),
                                ("tube type 2", "Rbc/surface needs spacing"),
                                ("tube spacing 1", "Rbc/surface needs type"),
                                ("tube type 2 spacing 0", "Rbc/surface spacing value 0 must be > 0"),
@@ -273,7 +273,7 @@ class Drive(Case):
     def test_errors(self):
         for words, message in (("mean z 1", "Fix rbc/fluid mean z needs a triply periodic box"),
                                ("mean x", "Illegal fix rbc/fluid mean command"),
-                               ("mean 1 0 0", "Fix rbc/fluid mean 1 needs a triply periodic box"),
+                               ("mean 1 0 0", "needs a triply periodic box"),
                                ("mean x 1 inertia unsteady", "Fix rbc/fluid mean x needs inertia none"),
                                ("inside nope", "Region ID nope for fix rbc/fluid inside does not exist"),
                                ("mean x v_nope", "Variable nope for fix rbc/fluid does not exist")):

@@ -84,6 +84,7 @@ void DrivenFlow::build()
     staggered.spacing[d] = domain->prd[d] / cells[d];
   }
   staggered.plates = settings_.plates;
+  staggered.plate_conditions = settings_.plate_conditions;
 
   ghost_layers_ = layers_needed();
   auto flow = std::make_unique<fluid::Flow>(staggered, fluid::Decomposition(world, brick),

@@ -8,6 +8,17 @@
 
 using namespace LAMMPS_NS;
 
+namespace {
+
+/// 0 without plates, 1 with plates without slip as in files of before plates could slip.
+double plates(const fluid::Grid &grid)
+{
+  const auto &[lower, upper] = grid.plate_conditions;
+  return grid.plates ? 1 + int(lower) + 16 * int(upper) : 0;
+}
+
+}    // namespace
+
 /* ---------------------------------------------------------------------- */
 
 std::vector<double> FlowRestart::head(const fluid::Flow &flow) const
@@ -19,7 +30,7 @@ std::vector<double> FlowRestart::head(const fluid::Flow &flow) const
           domain->prd[0],
           domain->prd[1],
           domain->prd[2],
-          double(flow.grid().plates),
+          plates(flow.grid()),
           double(flow.equations().inertia),
           double(flow.equations().scheme),
           double(flow.history_length())};
@@ -66,8 +77,8 @@ bigint FlowRestart::restore(const char *buffer, fluid::Flow &flow) const
   if (!std::equal(expected.begin(), expected.end(), found))
     error->all(FLERR,
                "{}: the restart file holds this flow on a grid of {} {} {} cells, or in another "
-               "box, or with another inertia or scheme; define the fix as it was, or use another "
-               "fix ID to start from rest",
+               "box, or with other plates or another inertia or scheme; define the fix as it was, or "
+               "use another fix ID to start from rest",
                style_, found[0], found[1], found[2]);
   flow.restore(found + expected.size() + 1);
   return static_cast<bigint>(found[expected.size()]);

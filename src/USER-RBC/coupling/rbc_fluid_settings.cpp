@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 
@@ -86,12 +87,20 @@ void Reader::read_plate()
     args.fail("Fix rbc/fluid wall side {} must be zlo or zhi", side);
   if (domain->zperiodic)
     args.fail("Fix rbc/fluid wall {} on a periodic side: z must be fixed (boundary p p f)", side);
+  wall_given[side == "zhi"] = true;
+  fluid::PlateConditions &conditions = settings.plate_conditions;
+  fluid::PlateCondition &condition = side == "zlo" ? conditions.lower : conditions.upper;
   FlowForcing::Vector &velocity = side == "zlo" ? forcing.lower : forcing.upper;
+  if (args.take("slip")) {
+    condition = fluid::PlateCondition::free_slip;
+    velocity = {};
+    return;
+  }
+  condition = fluid::PlateCondition::no_slip;
   velocity = args.vector();
   if (velocity[2].is_variable() || velocity[2].value(lmp) != 0)
     args.fail("Fix rbc/fluid wall {} velocity along z must be 0: plates move along themselves",
               side);
-  wall_given[side == "zhi"] = true;
 }
 
 /* ----------------------------------------------------------------------
@@ -110,8 +119,8 @@ void Reader::read_mean()
   const bool by_forces = args.take("force");
   const FlowForcing::Vector mean = by_forces ? FlowForcing::Vector() : args.vector();
   if (!domain->zperiodic)
-    args.fail("Fix rbc/fluid mean needs a triply periodic box: between plates the mean flow "
-              "follows from them; mean x or y V holds one by a body force");
+    args.fail("Fix rbc/fluid mean V1 V2 V3 or force needs a triply periodic box: between plates the "
+              "mean flow follows from them; mean x or y V holds one by a body force");
   settings.free_mean = by_forces;
   mean_given = true;
   if (!by_forces) forcing.mean = mean;
@@ -132,6 +141,11 @@ void Reader::check()
   if (settings.plates && !(wall_given[0] && wall_given[1]))
     error->all(FLERR, "Fix rbc/fluid needs wall zlo and wall zhi where z is not periodic");
   const bool inertia = settings.equations.inertia != fluid::Inertia::none;
+  if (settings.plates && !inertia && !settings.plate_conditions.hold_the_flow())
+    error->all(FLERR,
+               "Fix rbc/fluid wall slip on both sides needs inertia unsteady or convective: "
+               "nothing would hold the mean velocity of a steady flow; give one of the plates a "
+               "velocity");
   if (!inertia && settings.equations.scheme == fluid::Scheme::projection)
     error->all(FLERR,
                "Fix rbc/fluid scheme projection needs inertia unsteady or convective: steady "

@@ -14,6 +14,7 @@ struct FluidSettings {
   fluid::FlowEquations equations;
   std::array<int, 3> cells{};
   bool plates = false;
+  fluid::PlateConditions plate_conditions;
   bool free_mean = false;          ///< asked for: the mean velocity follows from forces
   bool prescribed_mean = false;    ///< it is what was given
   std::string inside;              ///< region; empty: the whole box
