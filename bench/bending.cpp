@@ -1,5 +1,5 @@
-// Error of both forms of bending over the spacing of the mesh, in CSV: energies of a sphere and of the biconcave disc,
-// normal force per area on the disc.
+// Error of both forms of bending over the spacing of the mesh, in CSV: energies of a sphere and of
+// the biconcave disc, normal force per area on the disc.
 
 #include "disc_force.h"
 

@@ -1,4 +1,5 @@
-// Drag of rigid spheres of markers in steady flow: simple cubic arrays and a sphere between two plates. Writes a table.
+// Drag of rigid spheres of markers in steady flow: simple cubic arrays and a sphere between two
+// plates. Writes a table.
 
 #include "rigid_sphere.h"
 
@@ -35,8 +36,9 @@ void array(KernelKind kernel, const char *name, double spacing, int n)
   }
 }
 
-/// Faxen's series (Happel & Brenner, section 7-4) for a sphere that moves along two plates, at the middle between them
-/// or at a quarter. The images in a periodic box of side L change the drag by a part of order (H/L)^2.
+/// Faxen's series (Happel & Brenner, section 7-4) for a sphere that moves along two plates, at the
+/// middle between them or at a quarter. The images in a periodic box of side L change the drag by a
+/// part of order (H/L)^2.
 void plates(KernelKind kernel, const char *name, double spacing, double radius, double x,
             bool middle)
 {

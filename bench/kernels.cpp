@@ -1,5 +1,6 @@
-// Time of the solver's parts by themselves, on any number of ranks. One rank also times the Fourier transforms
-// that a solve cannot do without, in turn with the solves, so that what else the machine does hits both.
+// Time of the solver's parts by themselves, on any number of ranks. One rank also times the Fourier
+// transforms that a solve cannot do without, in turn with the solves, so that what else the machine
+// does hits both.
 
 #include "fluid/halo.h"
 #include "fluid/spreading.h"
@@ -79,7 +80,8 @@ Grid grid_of(const Index3 &cells, bool walls)
   return {cells, {0, 0, 0}, {spacing, spacing, spacing}, walls};
 }
 
-/// Slabs across the longest direction, the last of equals, as LAMMPS divides a box between two ranks.
+/// Slabs across the longest direction, the last of equals, as LAMMPS divides a box between two
+/// ranks.
 Decomposition slabs(const Grid &grid)
 {
   int rank;
@@ -107,8 +109,8 @@ VectorField filled(const Box &box)
 
 // ---- the bare transforms
 
-/// FFTW's own transform of three components there and back, in place: of each plane between plates, else of the
-/// box. In place and one plane a call are FFTW's fastest.
+/// FFTW's own transform of three components there and back, in place: of each plane between plates,
+/// else of the box. In place and one plane a call are FFTW's fastest.
 class BareTransforms {
  public:
   BareTransforms(const Grid &grid, unsigned planning)

@@ -1,5 +1,5 @@
-// LAMMPS's fix lb/fluid as a plugin, in place of the one built in: the same source, under a name of its own for the
-// linker.
+// LAMMPS's fix lb/fluid as a plugin, in place of the one built in: the same source, under a name of
+// its own for the linker.
 #define FixLbFluid FixLbFluidOfPlugin
 #include "fix_lb_fluid.cpp"
 

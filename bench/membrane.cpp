@@ -1,4 +1,5 @@
-// Time of a force evaluation of one cell on one core: ns per vertex, for each law and form of bending.
+// Time of a force evaluation of one cell on one core: ns per vertex, for each law and form of
+// bending.
 
 #include "membrane/membrane_model.h"
 #include "molecule_file.h"

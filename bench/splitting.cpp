@@ -1,5 +1,6 @@
-// Error of the projection scheme beside that of the coupled one: rolls and a Womersley flow between plates, at several
-// viscous Courant numbers nu dt / h^2, in the middle of the last step, where markers move with the velocity. Prints CSV.
+// Error of the projection scheme beside that of the coupled one: rolls and a Womersley flow between
+// plates, at several viscous Courant numbers nu dt / h^2, in the middle of the last step, where
+// markers move with the velocity. Prints CSV.
 
 #include "fluid/flow.h"
 #include "forced_flow.h"
@@ -49,8 +50,8 @@ template <typename T> T mean(const T &a, const T &b)
   return mean;
 }
 
-/// Values of this rank's brick one after the other: velocities, pressure, and the velocity along the lower plate,
-/// extrapolated from the three cells next to it.
+/// Values of this rank's brick one after the other: velocities, pressure, and the velocity along
+/// the lower plate, extrapolated from the three cells next to it.
 struct State {
   std::vector<double> velocity, pressure, plate;
 };
@@ -121,7 +122,8 @@ void compare(const Decomposition &decomposition)
   };
   const std::vector<double> numbers{1, 4, 10, 40, 100, 400, 1000};
 
-  // The middle of the last step of each is the end of one of the reference, between the middles of two.
+  // The middle of the last step of each is the end of one of the reference, between the middles of
+  // two.
   std::map<int, std::vector<State>> around;
   const int total = steps_of(reference);
   for (double number : numbers) around[total - std::lround(number / (2 * reference))];

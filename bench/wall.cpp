@@ -1,6 +1,7 @@
-// Slip against solves in a tube of atoms through which a given mean flow is led past a blob of force (a cell): conjugate
-// gradients alone (there without the force), with the preconditioner, and with the directions of earlier evaluations (the force moved on by a
-// twentieth of a cell a time). Writes a table.
+// Slip against solves in a tube of atoms through which a given mean flow is led past a blob of
+// force (a cell): conjugate gradients alone (there without the force), with the preconditioner, and
+// with the directions of earlier evaluations (the force moved on by a twentieth of a cell a time).
+// Writes a table.
 
 #include "fluid/direct_forcing.h"
 #include "rigid_tube.h"

@@ -6,8 +6,8 @@ namespace fluid {
 
 namespace {
 
-/// Fluxes of momentum component c through the faces around its point p. `along[d]` is the step to the next cell in
-/// direction d and `quarter[d]` is 1 / (4 h_d): two means of two velocities each.
+/// Fluxes of momentum component c through the faces around its point p. `along[d]` is the step to
+/// the next cell in direction d and `quarter[d]` is 1 / (4 h_d): two means of two velocities each.
 struct Fluxes {
   std::array<const double *, 3> u;
   std::array<std::ptrdiff_t, 3> along;

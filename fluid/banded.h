@@ -21,8 +21,8 @@ template <int N> struct ComplexLines {
   std::vector<Lane<N>> re, im;
 };
 
-/// The values one point beyond the ends of a line are these factors times the values at its ends: 1 is
-/// a slope of zero, 0 a value of zero at the next point, -1 a value of zero midway to it.
+/// The values one point beyond the ends of a line are these factors times the values at its ends: 1
+/// is a slope of zero, 0 a value of zero at the next point, -1 a value of zero midway to it.
 using LineEnds = ImageFactors;
 constexpr LineEnds zero_slope{1, 1}, zero_value{0, 0};
 
@@ -32,10 +32,9 @@ inline double end_factor(const LineEnds &ends, int k, int n)
   return (k == 0 ? ends.lower : 0) + (k == n - 1 ? ends.upper : 0);
 }
 
-/// Lines of (a - b h^2 d^2/dz^2) x = r, solved by L D L^T.
-/// `factor` takes a and b = viscosity / h^2; `solve` replaces r by x. The other way is row by row: `begin`,
-/// then for rising k factor_row and eliminate, which needs r up to row k; then for falling k substitute,
-/// which gives x in row k.
+/// Lines of (a - b h^2 d^2/dz^2) x = r, solved by L D L^T. `factor` takes a and b = viscosity /
+/// h^2; `solve` replaces r by x. The other way is row by row: `begin`, then for rising k factor_row
+/// and eliminate, which needs r up to row k; then for falling k substitute, which gives x in row k.
 template <int N> class TridiagonalLines : public ComplexLines<N> {
  public:
   using ComplexLines<N>::re;
@@ -95,10 +94,10 @@ template <int N> class TridiagonalLines : public ComplexLines<N> {
   std::vector<Lane<N>> inverse_pivot_, ratio_;
 };
 
-/// Lines of (q A_w + D^T A_c D) w = r on the interior faces 1 .. n-1 of n cells, w = 0 on faces 0 and n, with
-/// the Helmholtz operators A of coefficients a and b = viscosity / h^2 on faces (A_w) and on centres (A_c),
-/// of which the latter has the given ends.
-/// Used row by row like TridiagonalLines, k = 1 .. n-1.
+/// Lines of (q A_w + D^T A_c D) w = r on the interior faces 1 .. n-1 of n cells, w = 0 on faces 0
+/// and n, with the Helmholtz operators A of coefficients a and b = viscosity / h^2 on faces (A_w)
+/// and on centres (A_c), of which the latter has the given ends. Used row by row like
+/// TridiagonalLines, k = 1 .. n-1.
 template <int N> class PentadiagonalLines : public ComplexLines<N> {
  public:
   using ComplexLines<N>::re;

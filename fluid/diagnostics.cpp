@@ -12,8 +12,9 @@ template <typename Values> void sum_over_ranks(Values &values, MPI_Comm comm)
                 comm);
 }
 
-/// The shear tractions are those of the discrete equations, so that plates and applied forces balance to
-/// round-off; the normal ones are the mean pressure at the plates, of mean zero over the fluid.
+/// The shear tractions are those of the discrete equations, so that plates and applied forces
+/// balance to round-off; the normal ones are the mean pressure at the plates, of mean zero over the
+/// fluid.
 void find_tractions(const Flow &flow, const Forcing &forcing, FlowDiagnostics &measures)
 {
   const Grid &grid = flow.grid();

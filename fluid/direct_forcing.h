@@ -4,15 +4,18 @@
 
 namespace fluid {
 
-/// Markers with mass, which move with the fluid. They pass on to it the force applied to them less what accelerates
-/// their mass: with U the velocity of the fluid at the markers in the middle of a step they exert
+/// Markers with mass, which move with the fluid. They pass on to it the force applied to them less
+/// what accelerates their mass: with U the velocity of the fluid at the markers in the middle of a
+/// step they exert
 ///   F - W (U - V),
-/// where the resistance W = mass / time and the velocity V come from the discretisation of the acceleration. With
-/// U = U_F + M (force), M the mobility of the markers, the inertial force mu = -W (U - V) = sqrt(W) z obeys
+/// where the resistance W = mass / time and the velocity V come from the discretisation of the
+/// acceleration. With U = U_F + M (force), M the mobility of the markers, the inertial force mu =
+/// -W (U - V) = sqrt(W) z obeys
 ///   (1 + sqrt(W) M sqrt(W)) z = sqrt(W) (V - U_F),
-/// which is solved by conjugate gradients with one solve of the flow each. Without mass nothing is left to solve; with
-/// a very large one the markers hold V, as a rigid no-slip surface (the direct forcing of Xu et al., equations 5 and 6).
-/// Where no resistance is given they do hold V: M mu = V - U_F.
+/// which is solved by conjugate gradients with one solve of the flow each. Without mass nothing is
+/// left to solve; with a very large one the markers hold V, as a rigid no-slip surface (the direct
+/// forcing of Xu et al., equations 5 and 6). Where no resistance is given they do hold V: M mu = V
+/// - U_F.
 class DirectForcing {
  public:
   double tolerance = 1e-4;
@@ -32,8 +35,8 @@ class DirectForcing {
   struct Outcome {
     int outside = -1;    ///< marker whose kernel leaves the ghost layers: nothing else is valid
     int solves = 1;
-    /// Of the force relative to the largest part of it, or of the velocity relative to the fastest fluid,
-    /// whichever is less.
+    /// Of the force relative to the largest part of it, or of the velocity relative to the fastest
+    /// fluid, whichever is less.
     double error = 0;
   };
 

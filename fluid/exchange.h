@@ -19,9 +19,9 @@ struct Traffic {
   long bytes = 0;
 };
 
-/// Moves boxes between arrays of different ranks with one message a pair of ranks, whatever the number of
-/// boxes and of components. The n-th box that rank a sends to rank b lands in the n-th box that b
-/// receives from a; transfers of a rank to itself are copied.
+/// Moves boxes between arrays of different ranks with one message a pair of ranks, whatever the
+/// number of boxes and of components. The n-th box that rank a sends to rank b lands in the n-th
+/// box that b receives from a; transfers of a rank to itself are copied.
 template <typename T> class Exchange {
  public:
   static constexpr int max_components = 3;
@@ -44,7 +44,8 @@ template <typename T> class Exchange {
     run(from.data(), to.data(), N, receives_, sends_, false);
   }
 
-  /// The transpose of copy: adds what stands in the receiving boxes of `from` to the sending boxes of `to`.
+  /// The transpose of copy: adds what stands in the receiving boxes of `from` to the sending boxes
+  /// of `to`.
   template <std::size_t N>
   void accumulate(const std::array<View<T>, N> &from, const std::array<View<T>, N> &to)
   {

@@ -45,7 +45,8 @@ int Flow::spread(const MarkerSet &markers, const double *force, double factor)
   return fluid::spread(grid_, markers, force, factor, force_, reach(markers.kind));
 }
 
-/// Where kernels find velocities: of sheets where these have neighbors on all sides, and beyond plates.
+/// Where kernels find velocities: of sheets where these have neighbors on all sides, and beyond
+/// plates.
 Box Flow::reach(MarkerKind kind) const
 {
   Box box = halo_.box();

@@ -8,13 +8,15 @@
 
 namespace fluid {
 
-/// Flow around immersed boundaries on this rank's part of the grid. Without inertia it follows from the forces:
+/// Flow around immersed boundaries on this rank's part of the grid. Without inertia it follows from
+/// the forces:
 ///   clear_force, spread, accumulate_ghosts, solve, fill_ghosts, interpolate.
 /// With inertia time goes on by steps, in the middle of which velocity and forces meet:
 ///   clear_force, spread, accumulate_ghosts, start_step, fill_ghosts, interpolate, finish_step.
 class Flow {
  public:
-  /// Without markers (ghost_layers = 0) no memory is kept for forces, and no ghosts but those of differences.
+  /// Without markers (ghost_layers = 0) no memory is kept for forces, and no ghosts but those of
+  /// differences.
   Flow(const Grid &grid, const Decomposition &decomposition, int ghost_layers,
        const FlowEquations &equations);
   Flow(const Flow &) = delete;
@@ -22,8 +24,8 @@ class Flow {
 
   void clear_force();
 
-  /// Returns the first marker whose kernel leaves the ghost layers (nothing is spread for it), or -1. Sheets take the
-  /// outermost layer for differences.
+  /// Returns the first marker whose kernel leaves the ghost layers (nothing is spread for it), or
+  /// -1. Sheets take the outermost layer for differences.
   int spread(const MarkerSet &markers, const double *force, double factor);
 
   /// Adds the ghosts' share of the force to its owners: the exchange between spread and solve.
@@ -35,9 +37,10 @@ class Flow {
   /// Solves so far.
   long solves() const { return solves_; }
 
-  /// With inertia. The forcing is that of the middle of the step, t + dt/2. From here to finish_step the velocity is
-  /// that of the middle. The first two steps of a flow are made of two halves by backward Euler, so that a sudden start
-  /// does not ring (Rannacher, Numer. Math. 43 (1984) 309).
+  /// With inertia. The forcing is that of the middle of the step, t + dt/2. From here to
+  /// finish_step the velocity is that of the middle. The first two steps of a flow are made of two
+  /// halves by backward Euler, so that a sudden start does not ring (Rannacher, Numer. Math. 43
+  /// (1984) 309).
   void start_step(double dt, const Forcing &forcing);
 
   /// The forcing is that of the end of the step, t + dt.
@@ -53,14 +56,16 @@ class Flow {
 
   void interpolate(const MarkerSet &markers, double *velocity);
 
-  /// Velocities at the markers that further forces on them would add now (solve, start_step): the mobility of the
-  /// markers, by the coupled scheme. Returns the first marker whose kernel leaves the ghost layers, or -1; the velocity
-  /// is valid only if that is -1 on all ranks, as it is for the markers of such a spread, at the same positions.
-  /// `add_mobility_flow` adds a multiple of these forces and of their flow.
+  /// Velocities at the markers that further forces on them would add now (solve, start_step): the
+  /// mobility of the markers, by the coupled scheme. Returns the first marker whose kernel leaves
+  /// the ghost layers, or -1; the velocity is valid only if that is -1 on all ranks, as it is for
+  /// the markers of such a spread, at the same positions. `add_mobility_flow` adds a multiple of
+  /// these forces and of their flow.
   int apply_mobility(const MarkerSet &markers, const double *force, double *velocity);
   void add_mobility_flow(double factor);
 
-  /// Adds a uniform velocity, ghosts included: triply periodic and without inertia only, where no force drives the mean.
+  /// Adds a uniform velocity, ghosts included: triply periodic and without inertia only, where no
+  /// force drives the mean.
   void add_mean(const Real3 &velocity);
 
   const Grid &grid() const { return grid_; }
@@ -91,7 +96,8 @@ class Flow {
   const Real3 &lower_direct() const { return lower_direct_; }
   const Real3 &upper_direct() const { return upper_direct_; }
 
-  /// What a flow with inertia remembers from step to step, of the whole grid, on rank 0; elsewhere empty. Collective.
+  /// What a flow with inertia remembers from step to step, of the whole grid, on rank 0; elsewhere
+  /// empty. Collective.
   std::vector<double> history();
   std::size_t history_length() const;
   void restore(const double *history);

@@ -12,8 +12,8 @@ fftw_complex *raw(Complex *p)
   return reinterpret_cast<fftw_complex *>(p);
 }
 
-/// Length of rows for transforms across them: at strides of an even number of cache lines, above all at powers of
-/// two, few sets of the cache are used.
+/// Length of rows for transforms across them: at strides of an even number of cache lines, above
+/// all at powers of two, few sets of the cache are used.
 int padded(int columns)
 {
   return columns % 8 == 0 ? columns + 4 : columns;

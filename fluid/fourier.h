@@ -23,8 +23,8 @@ class Plan {
   std::unique_ptr<fftw_plan_s, Destroy> plan_;
 };
 
-/// Real transform of rows of the same length, two rows at a time as real and imaginary part of a complex one:
-/// FFTW's complex transforms use SIMD, its real ones mostly do not.
+/// Real transform of rows of the same length, two rows at a time as real and imaginary part of a
+/// complex one: FFTW's complex transforms use SIMD, its real ones mostly do not.
 class RowTransform {
  public:
   RowTransform() = default;
@@ -46,8 +46,8 @@ class RowTransform {
   Plan forward_, backward_;
 };
 
-/// Distributed real transform in x and y of up to three components at a time, unnormalised. Grid values
-/// live on the decomposition's bricks, modes on `modes()`: a box of (kx, ky) with all of z.
+/// Distributed real transform in x and y of up to three components at a time, unnormalised. Grid
+/// values live on the decomposition's bricks, modes on `modes()`: a box of (kx, ky) with all of z.
 class Fourier {
  public:
   Fourier(const Fourier &) = delete;

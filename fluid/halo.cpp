@@ -19,8 +19,8 @@ Box with_ghosts(const Grid &grid, const Box &brick, int width)
   return box;
 }
 
-/// Parts of `owner`'s brick and its periodic images that lie in `ghosted`, as seen by the ghost cells'
-/// holder; the image at `shift` has its source at box - shift.
+/// Parts of `owner`'s brick and its periodic images that lie in `ghosted`, as seen by the ghost
+/// cells' holder; the image at `shift` has its source at box - shift.
 template <typename Visit>
 void for_each_image(const Grid &grid, const Box &owner, const Box &ghosted, bool same_rank,
                     Visit visit)

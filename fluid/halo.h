@@ -6,8 +6,9 @@
 namespace fluid {
 
 /// Layers of cells around a rank's brick that mirror the owners' values, periodic images included.
-/// Between plates the layers beyond a plate belong to the boundary condition: `wall_layers` planes of faces, for
-/// which the upper plate, itself a plane of lower faces, takes one layer of cells more.
+/// Between plates the layers beyond a plate belong to the boundary condition: `wall_layers` planes
+/// of faces, for which the upper plate, itself a plane of lower faces, takes one layer of cells
+/// more.
 class Halo {
  public:
   static constexpr int wall_layers = 2;

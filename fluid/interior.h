@@ -7,7 +7,8 @@
 
 namespace fluid {
 
-/// A part of the fluid, that inside a vessel for example: the share of each cell that belongs to it.
+/// A part of the fluid, that inside a vessel for example: the share of each cell that belongs to
+/// it.
 class Interior {
  public:
   /// Collective. Cells with corners on both sides are sampled.

@@ -4,17 +4,19 @@
 
 namespace fluid {
 
-// Regularised delta functions of one direction. `weights(s, w)` takes a position s in units of the spacing,
-// writes the weights of the `width` grid points first, first + 1, ... and returns `first`. Weights are padded
-// with zeros to four, so that a row of points is always one SIMD register.
+// Regularised delta functions of one direction. `weights(s, w)` takes a position s in units of the
+// spacing, writes the weights of the `width` grid points first, first + 1, ... and returns `first`.
+// Weights are padded with zeros to four, so that a row of points is always one SIMD register.
 //
-// A surface of markers that does not slip at the markers is, for the flow beside it, one that does not slip a part of
-// the spacing further into the fluid. For a plane in a shear flow on one side of it that part is half the mean distance
-// of two points, both spread by the kernel of the same marker; `surface_offset` is its mean over the marker's places.
+// A surface of markers that does not slip at the markers is, for the flow beside it, one that does
+// not slip a part of the spacing further into the fluid. For a plane in a shear flow on one side of
+// it that part is half the mean distance of two points, both spread by the kernel of the same
+// marker; `surface_offset` is its mean over the marker's places.
 //
-// `kink_correction` removes this error for surfaces with fluid on both sides, see there. For a plane across an axis it would be
-// surface_offset over the sum of the squared weights, 3/8 and 1/2, which is the same at every place; it is what does so for
-// a sphere that turns, in the mean over all directions of the normal.
+// `kink_correction` removes this error for surfaces with fluid on both sides, see there. For a
+// plane across an axis it would be surface_offset over the sum of the squared weights, 3/8 and 1/2,
+// which is the same at every place; it is what does so for a sphere that turns, in the mean over
+// all directions of the normal.
 
 /// Four-point kernel of Peskin, Acta Numerica 11 (2002) 479, equations 6.27-6.28.
 struct Peskin4 {

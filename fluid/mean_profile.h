@@ -4,14 +4,14 @@
 
 namespace fluid {
 
-/// Mean profiles over x and y between plates of u, v and p (that of w is zero): the plates and a uniform force drive
-/// the flow through these only.
+/// Mean profiles over x and y between plates of u, v and p (that of w is zero): the plates and a
+/// uniform force drive the flow through these only.
 class MeanProfile {
  public:
   MeanProfile(const Grid &grid, double viscosity);
 
-  /// Solves (shift - viscosity d^2/dz^2) u = f; reads the mean modes of the force density. Without a
-  /// shift one of the plates must hold the flow.
+  /// Solves (shift - viscosity d^2/dz^2) u = f; reads the mean modes of the force density. Without
+  /// a shift one of the plates must hold the flow.
   void solve(const std::array<View<Complex>, 3> &force, double shift, const Forcing &forcing);
 
   /// Writes the mean modes of the velocity, and of the pressure if given (its mean is zero).

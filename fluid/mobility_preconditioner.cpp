@@ -12,14 +12,14 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// Distance of the markers that another depends on, over its distance from the nearest before it; how many at most; ratio
-// of that distance from level to level.
+// Distance of the markers that another depends on, over its distance from the nearest before it;
+// how many at most; ratio of that distance from level to level.
 constexpr double reach = 3;
 constexpr int most_rows = 40;
 constexpr double refinement = 0.75;
 
-// Relative to the spacing of the grid: the slip length, and the radius of the discs in which markers are counted to find
-// how much of the surface each stands for.
+// Relative to the spacing of the grid: the slip length, and the radius of the discs in which
+// markers are counted to find how much of the surface each stands for.
 constexpr double slip_length = 0.0003;
 constexpr double disc = 2;
 
@@ -184,7 +184,8 @@ void MobilityPreconditioner::build(const Flow &flow, KernelKind kernel, int coun
   std::vector<int> before, now;
   double spacing = 0.5 * *std::max_element(cloud.period.begin(), cloud.period.end());
   for (; !waiting.empty(); spacing *= refinement) {
-    // markers of this level: not nearer to each other, and to those of earlier levels, than the spacing
+    // markers of this level: not nearer to each other, and to those of earlier levels, than the
+    // spacing
     const bool last = spacing < 0.1 * h;
     Bins sparse(cloud, spacing);
     for (int marker : before) sparse.add(marker);
@@ -282,7 +283,8 @@ void MobilityPreconditioner::build(const Flow &flow, KernelKind kernel, int coun
   }
 }
 
-/// With the mobility M of the markers of a column, E those of its first: M^-1 E C^-T, where C C^T = E^T M^-1 E.
+/// With the mobility M of the markers of a column, E those of its first: M^-1 E C^-T, where C C^T =
+/// E^T M^-1 E.
 void MobilityPreconditioner::add_column(const std::vector<Real3> &apart,
                                         const std::vector<double> &compliance, double viscosity,
                                         double radius)

@@ -7,14 +7,14 @@
 
 namespace fluid {
 
-/// Solves the discrete problem (shift - viscosity lap) u + grad p = f, div u = 0 on the staggered grid,
-/// mode by mode in x and y.
+/// Solves the discrete problem (shift - viscosity lap) u + grad p = f, div u = 0 on the staggered
+/// grid, mode by mode in x and y.
 class ModeSolver {
  public:
   virtual ~ModeSolver() = default;
 
-  /// Replaces the modes of the force density in `spectrum` by those of the velocity, normalised for the
-  /// unnormalised backward transform. Where `pressure` is given its modes are written too.
+  /// Replaces the modes of the force density in `spectrum` by those of the velocity, normalised for
+  /// the unnormalised backward transform. Where `pressure` is given its modes are written too.
   virtual void solve(const std::array<View<Complex>, 3> &spectrum, const Forcing &forcing,
                      const View<Complex> *pressure) = 0;
 
@@ -24,18 +24,20 @@ class ModeSolver {
   virtual const Components<Complex, 1> *kept_pressure() const { return nullptr; }
 };
 
-/// Triply periodic. Where the mean velocity is held it is that of the forcing, and a uniform pressure gradient
-/// balances the mean force; otherwise the mean obeys shift <u> = <f> + body.
+/// Triply periodic. Where the mean velocity is held it is that of the forcing, and a uniform
+/// pressure gradient balances the mean force; otherwise the mean obeys shift <u> = <f> + body.
 std::unique_ptr<ModeSolver> make_periodic_modes(const Grid &grid, const Box &modes,
                                                 double viscosity, double shift, bool hold_mean);
 
-/// Plates at both ends of z, with the conditions of the grid. Exact to round-off: velocity and pressure are not split.
+/// Plates at both ends of z, with the conditions of the grid. Exact to round-off: velocity and
+/// pressure are not split.
 std::unique_ptr<ModeSolver> make_walled_modes(const Grid &grid, const Box &modes, double viscosity,
                                               double shift);
 
-/// The same by a fractional step: momentum with the pressure of the solve before, then a projection that makes the
-/// velocity free of divergence and changes the pressure (Guermond, Minev & Shen, Comput. Methods Appl. Mech. Engrg. 195
-/// (2006) 6011, section 3.4: incremental, rotational). The velocity slips along the plates by the splitting error.
+/// The same by a fractional step: momentum with the pressure of the solve before, then a projection
+/// that makes the velocity free of divergence and changes the pressure (Guermond, Minev & Shen,
+/// Comput. Methods Appl. Mech. Engrg. 195 (2006) 6011, section 3.4: incremental, rotational). The
+/// velocity slips along the plates by the splitting error.
 std::unique_ptr<ModeSolver> make_projected_modes(const Grid &grid, const Box &modes,
                                                  double viscosity, double shift);
 

@@ -15,7 +15,8 @@ struct RankTable {
   int second(int r) const { return second_fastest ? r % b : r / a; }
 };
 
-/// First of n cells whose centre lies beyond the given share, as LAMMPS divides a grid among subdomains.
+/// First of n cells whose centre lies beyond the given share, as LAMMPS divides a grid among
+/// subdomains.
 int share(int n, int parts, int part)
 {
   return static_cast<int>((2L * n * part + parts - 1) / (2L * parts));

@@ -6,9 +6,9 @@
 
 namespace fluid {
 
-/// The three layouts of a distributed Fourier transform: each has one direction whole on every rank.
-/// `real_x` holds grid values; `x`, `y` and `z` hold modes of the real-to-complex transform, of which
-/// there are cells[0]/2 + 1 in x.
+/// The three layouts of a distributed Fourier transform: each has one direction whole on every
+/// rank. `real_x` holds grid values; `x`, `y` and `z` hold modes of the real-to-complex transform,
+/// of which there are cells[0]/2 + 1 in x.
 struct Pencils {
   std::vector<Box> real_x, x, y, z;
 };

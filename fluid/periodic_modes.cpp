@@ -6,14 +6,16 @@ namespace fluid {
 
 namespace {
 
-// Columns of modes are transformed in z and solved in blocks that fit into the cache, `lanes` at a time.
+// Columns of modes are transformed in z and solved in blocks that fit into the cache, `lanes` at a
+// time.
 constexpr int lanes = 8, groups = 4, width = groups * lanes;
 constexpr int stride =
     width + 4;    // an odd number of cache lines: powers of two would share few sets
 using Modes = ComplexLane<lanes>;
 
-/// With all directions transformed, momentum and continuity are f = s u + conj(d) p and d.u = 0, where d is the
-/// symbol of the difference from faces to centres (Wavenumbers) and s that of the Helmholtz operator.
+/// With all directions transformed, momentum and continuity are f = s u + conj(d) p and d.u = 0,
+/// where d is the symbol of the difference from faces to centres (Wavenumbers) and s that of the
+/// Helmholtz operator.
 class PeriodicModes : public ModeSolver {
  public:
   PeriodicModes(const Grid &grid, const Box &modes, double viscosity, double shift,

@@ -2,16 +2,17 @@
 
 namespace fluid {
 
-/// What the fluid does at a plate. No plate lets fluid through. A further condition needs its name and
-/// its factor here, and its word in the arguments of fix rbc/fluid; nothing else depends on it.
+/// What the fluid does at a plate. No plate lets fluid through. A further condition needs its name
+/// and its factor here, and its word in the arguments of fix rbc/fluid; nothing else depends on it.
 enum class PlateCondition {
   no_slip,     ///< The fluid moves with the plate.
   free_slip    ///< The plate exerts no shear traction, like a plane of symmetry.
 };
 
-/// The velocity along the plate at a point beyond it is this factor times the velocity at the mirror
-/// image of the point, plus one minus the factor times the velocity of the plate. The velocity across
-/// a plate has the factor -1 in all cases. Factors lie in [-1, 1]: then the equations stay positive.
+/// The velocity along the plate at a point beyond it is this factor times the velocity at the
+/// mirror image of the point, plus one minus the factor times the velocity of the plate. The
+/// velocity across a plate has the factor -1 in all cases. Factors lie in [-1, 1]: then the
+/// equations stay positive.
 constexpr double image_factor(PlateCondition condition)
 {
   switch (condition) {

@@ -10,8 +10,8 @@ struct PlanePair {
   int beyond, inside;
 };
 
-/// The planes of component c beyond the lower (upper) plate and their mirror images; w has a plane of faces on
-/// the plate itself.
+/// The planes of component c beyond the lower (upper) plate and their mirror images; w has a plane
+/// of faces on the plate itself.
 PlanePair mirrored(const Grid &grid, int c, bool upper, int layer)
 {
   const int n = grid.cells[2];

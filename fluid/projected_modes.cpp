@@ -8,7 +8,8 @@ namespace {
 /// With s the shift, p the pressure of the solve before, * the velocity before the projection:
 ///   (s - viscosity lap) u* + grad p = f,   lap phi = s div u*,   u = u* - grad phi / s,
 ///   p += phi - viscosity div u*.
-/// As in WalledModes, the part of the velocity along the wave vector is taken times i, which makes all real.
+/// As in WalledModes, the part of the velocity along the wave vector is taken times i, which makes
+/// all real.
 class ProjectedModes : public PlateModes {
  public:
   ProjectedModes(const Grid &grid, const Box &modes, double viscosity, double shift) :

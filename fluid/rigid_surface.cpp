@@ -9,12 +9,14 @@ namespace fluid {
 
 namespace {
 
-// Guesses are extrapolated over so many intervals of the last two evaluations at most. The residual left by directions
-// known must be so much below the one allowed that the solve for them need not be followed by another.
+// Guesses are extrapolated over so many intervals of the last two evaluations at most. The residual
+// left by directions known must be so much below the one allowed that the solve for them need not
+// be followed by another.
 constexpr double farthest = 1.5;
 constexpr double sure = 0.8;
 
-// Of a slip larger than the one allowed: where the residual is less than this part, it is that markers yield.
+// Of a slip larger than the one allowed: where the residual is less than this part, it is that
+// markers yield.
 constexpr double negligible = 0.3;
 
 // Of the use of directions in the next evaluation that counts.
@@ -127,7 +129,8 @@ int RigidSurface::spread(Flow &flow, double time, const Real3 &others)
   return flow.spread(markers_, force_.data(), 1.0);
 }
 
-/// The uniform velocity that directions without net force leave of a velocity, in the norm of the preconditioner.
+/// The uniform velocity that directions without net force leave of a velocity, in the norm of the
+/// preconditioner.
 Eigen::Vector3d RigidSurface::uniform_part(const Flow &flow, const Vector &velocity) const
 {
   Eigen::Vector3d part = uniform_.transpose() * velocity;
@@ -189,7 +192,8 @@ RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
       products[0] = direction_.dot(change_);
       step_ += length_ * direction_;
     }
-    // that of the directions known is residual_ - change_ but for a uniform velocity, which no direction feels
+    // that of the directions known is residual_ - change_ but for a uniform velocity, which no
+    // direction feels
     change_ = residual_ - change_;
     flow.apply_mobility(markers_, step_.data(), response_.data());
     ++outcome.solves;

@@ -6,20 +6,22 @@
 
 namespace fluid {
 
-/// Markers of rigid no-slip surfaces that move as prescribed, whatever the flow. The forces lambda that they exert on
-/// the fluid obey
+/// Markers of rigid no-slip surfaces that move as prescribed, whatever the flow. The forces lambda
+/// that they exert on the fluid obey
 ///   A lambda = U - u,   A = J S J^T the mobility of the markers, u the flow of all other forces at the markers.
-/// Forces extrapolated from the last evaluations are part of the flow from the start (spread). From there on each
-/// iteration costs one solve (enforce). It adds the best combination of the directions known, kept from earlier
-/// iterations and evaluations with their responses, and a new one, the preconditioned residual. Without the past these
-/// are conjugate gradients.
+/// Forces extrapolated from the last evaluations are part of the flow from the start (spread). From
+/// there on each iteration costs one solve (enforce). It adds the best combination of the
+/// directions known, kept from earlier iterations and evaluations with their responses, and a new
+/// one, the preconditioned residual. Without the past these are conjugate gradients.
 ///
-/// Where the mean velocity of a triply periodic flow is not prescribed it follows from the balance of forces: it is an
-/// unknown c more, with sum lambda = given, A lambda + c = U - u. Directions then have no net force.
+/// Where the mean velocity of a triply periodic flow is not prescribed it follows from the balance
+/// of forces: it is an unknown c more, with sum lambda = given, A lambda + c = U - u. Directions
+/// then have no net force.
 class RigidSurface {
  public:
   struct Settings {
-    /// Largest slip relative to the largest speed; where markers yield by more, the largest residual.
+    /// Largest slip relative to the largest speed; where markers yield by more, the largest
+    /// residual.
     double tolerance = 1e-3;
     int max_solves = 100;    ///< of an evaluation, including the first
     int most_directions = 64;
@@ -39,7 +41,8 @@ class RigidSurface {
 
   int count() const { return markers_.count; }
 
-  /// Rows as in set_markers: velocities wanted; forces on the fluid of the last evaluation and of that before it.
+  /// Rows as in set_markers: velocities wanted; forces on the fluid of the last evaluation and of
+  /// that before it.
   double *target() { return target_.data(); }
   double *force() { return force_.data(); }
   double *earlier_force() { return earlier_.data(); }
@@ -51,9 +54,9 @@ class RigidSurface {
   const Times &times() const { return times_; }
   void set_times(const Times &times) { times_ = times; }
 
-  /// Between clear_force and accumulate_ghosts of Flow: guesses the forces of a time and spreads them. `others` is the sum of
-  /// this rank's share of all other forces; it counts for a free mean only. Returns
-  /// what spread does.
+  /// Between clear_force and accumulate_ghosts of Flow: guesses the forces of a time and spreads
+  /// them. `others` is the sum of this rank's share of all other forces; it counts for a free mean
+  /// only. Returns what spread does.
   int spread(Flow &flow, double time, const Real3 &others);
 
   struct Outcome {
@@ -62,7 +65,8 @@ class RigidSurface {
     bool converged = false;
   };
 
-  /// Where the mean velocity is free: the one that the solve after spread() must be for; then, corrected by enforce().
+  /// Where the mean velocity is free: the one that the solve after spread() must be for; then,
+  /// corrected by enforce().
   const Real3 &mean() const { return mean_; }
 
   /// After solve: corrects forces, flow and mean velocity. The ghosts of the velocity are filled.

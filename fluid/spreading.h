@@ -7,12 +7,12 @@ namespace fluid {
 
 enum class KernelKind { roma3, peskin4 };
 
-/// Sheets are surfaces with fluid on both sides. Their velocity is corrected for the kink of the flow that kernels
-/// round off, see kink_correction().
+/// Sheets are surfaces with fluid on both sides. Their velocity is corrected for the kink of the
+/// flow that kernels round off, see kink_correction().
 enum class MarkerKind { points, sheets };
 
-/// Points of the immersed boundary: `index[0 .. count)` select rows of the arrays of positions, forces and
-/// velocities, which hold three numbers a row.
+/// Points of the immersed boundary: `index[0 .. count)` select rows of the arrays of positions,
+/// forces and velocities, which hold three numbers a row.
 struct MarkerSet {
   KernelKind kernel = KernelKind::peskin4;
   MarkerKind kind = MarkerKind::points;
@@ -21,8 +21,9 @@ struct MarkerSet {
   const double *position = nullptr;
 };
 
-/// Adds the force density of the markers to `force`, with F given in force units: f(x) += F delta_h(x - X).
-/// Returns the first marker (an entry of index) whose kernel leaves the box `within`, or -1.
+/// Adds the force density of the markers to `force`, with F given in force units: f(x) += F
+/// delta_h(x - X). Returns the first marker (an entry of index) whose kernel leaves the box
+/// `within`, or -1.
 int spread(const Grid &grid, const MarkerSet &markers, const double *applied, double factor,
            const VectorField &force, const Box &within);
 
@@ -38,17 +39,18 @@ inline int spread(const Grid &grid, const MarkerSet &markers, const double *appl
 void interpolate(const Grid &grid, const MarkerSet &markers, const VectorField &velocity,
                  double *interpolated);
 
-/// Hydrodynamic thickness of a surface of markers in grid spacings: place markers this far behind the no-slip surface
-/// that is wanted. To first order in the spacing their flow is that of a surface so much further into the fluid (see
-/// Kernel). This holds for flow on one side; where the other side is sheared by g times as much it is 1 + g times as
-/// far.
+/// Hydrodynamic thickness of a surface of markers in grid spacings: place markers this far behind
+/// the no-slip surface that is wanted. To first order in the spacing their flow is that of a
+/// surface so much further into the fluid (see Kernel). This holds for flow on one side; where the
+/// other side is sheared by g times as much it is 1 + g times as far.
 double surface_offset(KernelKind kernel);
 
-/// Square of a length, in cells, such that u - kink_correction d2u/dn2 is the velocity of a sheet of markers in the flow u that
-/// their forces cause. That flow has a kink at the sheet, normal n, of the tangential traction over the viscosity, which
-/// spreading rounds off: interpolated alone, u lags behind by surface_offset times it, and the sheet acts that much thicker
-/// on both sides. A local correction as those of regularised kernels in boundary integrals: Beale & Lai, SIAM J. Numer.
-/// Anal. 38 (2001) 1902; Tlupova & Beale, J. Comput. Phys. 386 (2019) 568.
+/// Square of a length, in cells, such that u - kink_correction d2u/dn2 is the velocity of a sheet
+/// of markers in the flow u that their forces cause. That flow has a kink at the sheet, normal n,
+/// of the tangential traction over the viscosity, which spreading rounds off: interpolated alone, u
+/// lags behind by surface_offset times it, and the sheet acts that much thicker on both sides. A
+/// local correction as those of regularised kernels in boundary integrals: Beale & Lai, SIAM J.
+/// Numer. Anal. 38 (2001) 1902; Tlupova & Beale, J. Comput. Phys. 386 (2019) 568.
 double kink_correction(KernelKind kernel);
 
 }    // namespace fluid

@@ -5,8 +5,9 @@
 
 namespace fluid {
 
-/// Velocity (and pressure) of (shift - viscosity lap) u + grad p = f, div u = 0 for a force density on the
-/// faces of a distributed staggered grid: exact for the discrete equations, but by projection between plates.
+/// Velocity (and pressure) of (shift - viscosity lap) u + grad p = f, div u = 0 for a force density
+/// on the faces of a distributed staggered grid: exact for the discrete equations, but by
+/// projection between plates.
 class StokesSolver {
  public:
   /// `hold_mean` as for make_periodic_modes.
@@ -15,14 +16,16 @@ class StokesSolver {
 
   void set_shift(double shift) { modes_->set_shift(shift); }
 
-  /// Sets the velocity on this rank's brick from the force on all bricks; they may be the same field.
+  /// Sets the velocity on this rank's brick from the force on all bricks; they may be the same
+  /// field.
   void velocity(const VectorField &force, const Forcing &forcing, const VectorField &velocity);
 
-  /// Sets the pressure (mean zero) that belongs to the force; costs a solve, and memory at the first call. That of a
-  /// projection is the one of the last solve.
+  /// Sets the pressure (mean zero) that belongs to the force; costs a solve, and memory at the
+  /// first call. That of a projection is the one of the last solve.
   void pressure(const VectorField &force, const Forcing &forcing, const ScalarField &pressure);
 
-  /// The modes kept from solve to solve (none but the pressure of a projection), and where they are.
+  /// The modes kept from solve to solve (none but the pressure of a projection), and where they
+  /// are.
   const Components<Complex, 1> *kept_modes() const { return modes_->kept_pressure(); }
   const std::vector<Box> &mode_bricks() const { return fourier_.mode_bricks(); }
 

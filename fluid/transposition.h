@@ -29,9 +29,10 @@ class DataType {
   MPI_Datatype type_;
 };
 
-/// Moves one or three components of a distributed complex array from one set of boxes (rank r owns from[r]) to
-/// another, to[r]. A rank holds either of its boxes cut into pieces, one for each rank it shares cells with;
-/// pieces are sent as they stand, and the piece a rank shares with itself is the same memory on both sides.
+/// Moves one or three components of a distributed complex array from one set of boxes (rank r owns
+/// from[r]) to another, to[r]. A rank holds either of its boxes cut into pieces, one for each rank
+/// it shares cells with; pieces are sent as they stand, and the piece a rank shares with itself is
+/// the same memory on both sides.
 class Transposition {
  public:
   /// A rank's box on one side, filled and read plane by plane (z fixed).
@@ -58,8 +59,8 @@ class Transposition {
 
   Transposition() = default;
 
-  /// Where `whole` is given, it stores the box to[rank], and the pieces on that side are its parts: each must
-  /// cover to[rank] in x and y.
+  /// Where `whole` is given, it stores the box to[rank], and the pieces on that side are its parts:
+  /// each must cover to[rank] in x and y.
   Transposition(MPI_Comm comm, const std::vector<Box> &from, const std::vector<Box> &to,
                 const Components<Complex, max_components> *whole);
 

@@ -5,10 +5,10 @@ namespace fluid {
 
 namespace {
 
-/// With Fourier modes in x and y the velocity splits into the part along the wave vector, the part across
-/// it, and w. The part across obeys a Helmholtz equation in z (tridiagonal). Continuity gives the part along
-/// from w, momentum along gives the pressure, and what is left for w is the pentadiagonal symmetric positive
-/// definite system
+/// With Fourier modes in x and y the velocity splits into the part along the wave vector, the part
+/// across it, and w. The part across obeys a Helmholtz equation in z (tridiagonal). Continuity
+/// gives the part along from w, momentum along gives the pressure, and what is left for w is the
+/// pentadiagonal symmetric positive definite system
 ///   (q A_w + D^T A_c D) w = q f_w + kappa h D^T f_along,   q = (kappa h)^2,
 /// where A_w, A_c are the Helmholtz operators on faces and centres and D the difference in z.
 class WalledModes : public PlateModes {

@@ -11,8 +11,9 @@ constexpr int lanes = 8;
 using Lanes = Lane<lanes>;
 using Modes = ComplexLane<lanes>;
 
-/// Wave vectors in x and y of the modes first, first + 1, ... of a plane: magnitude, direction, and the factors from
-/// faces to centres. The mean mode counts as one of magnitude 1 along x, without meaning.
+/// Wave vectors in x and y of the modes first, first + 1, ... of a plane: magnitude, direction, and
+/// the factors from faces to centres. The mean mode counts as one of magnitude 1 along x, without
+/// meaning.
 struct WaveVectors {
   Lanes kappa = Lanes::Ones(), x = Lanes::Ones(), y = Lanes::Zero();
   Modes ex = Modes::constant(1), ey = Modes::constant(1);

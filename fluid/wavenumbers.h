@@ -6,8 +6,9 @@
 
 namespace fluid {
 
-/// Symbols of the staggered difference over one spacing h for the modes first <= m < last of n points:
-/// (exp(i k h) - 1) / h = i kappa exp(i k h / 2) with the modified wavenumber kappa = 2 sin(k h / 2) / h.
+/// Symbols of the staggered difference over one spacing h for the modes first <= m < last of n
+/// points: (exp(i k h) - 1) / h = i kappa exp(i k h / 2) with the modified wavenumber kappa = 2
+/// sin(k h / 2) / h.
 struct Wavenumbers {
   std::vector<double> kappa;
   std::vector<std::complex<double>> half_shift;    ///< exp(i k h / 2), to the next centre

@@ -1,5 +1,5 @@
-// main() of tests that run on several ranks: rank 0 prints as usual, the others print failures only,
-// and every rank returns the failure of any.
+// main() of tests that run on several ranks: rank 0 prints as usual, the others print failures
+// only, and every rank returns the failure of any.
 
 #include <gtest/gtest.h>
 #include <mpi.h>

@@ -134,8 +134,9 @@ void ComputeRBCAggregate::find_aggregates()
 }
 
 /* ----------------------------------------------------------------------
-   what the vertices of this rank tell. Of a cell that it holds as a whole it knows whether it touches another, and
-   only pairs that join aggregates here go to the other ranks; the shares of other cells are added up there.
+   what the vertices of this rank tell. Of a cell that it holds as a whole it knows whether it
+   touches another, and only pairs that join aggregates here go to the other ranks; the shares of
+   other cells are added up there.
 ------------------------------------------------------------------------- */
 
 std::vector<TouchedShare> ComputeRBCAggregate::touched_here()

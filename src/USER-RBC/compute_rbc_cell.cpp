@@ -13,8 +13,8 @@ using rbc::Vec3;
 
 static constexpr int NCOLS = 19;
 
-// sums over a cell, in its own coordinates: area, volume, first and second moments, velocity, vertices,
-// and the cell's origin times the vertices
+// sums over a cell, in its own coordinates: area, volume, first and second moments, velocity,
+// vertices, and the cell's origin times the vertices
 
 enum {
   AREA,

@@ -360,8 +360,8 @@ void FixRBCIB::final_integrate()
 }
 
 /* ----------------------------------------------------------------------
-   1-3 force of the atoms on the fluid, 4 error of the coupling, 5 stages, 6 spectral radius, 7 local error, 8 steps
-   taken again, 9 timestep: of the last step
+   1-3 force of the atoms on the fluid, 4 error of the coupling, 5 stages, 6 spectral radius, 7
+   local error, 8 steps taken again, 9 timestep: of the last step
 ------------------------------------------------------------------------- */
 
 double FixRBCIB::compute_vector(int n)

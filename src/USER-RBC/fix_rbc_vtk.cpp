@@ -25,8 +25,8 @@ using rbc::Vec3;
 static const std::vector<rbc::PointArray> ARRAYS = {{"velocity", 3}, {"force", 3}, {"tension", 1}};
 static constexpr int VALUES = 3 + 3 + 3 + 1;    // at a vertex, with its position
 
-// cells whose centre lies this close below a side of the box, as a fraction of its length, count as above
-// it: on different ranks round-off must not decide
+// cells whose centre lies this close below a side of the box, as a fraction of its length, count as
+// above it: on different ranks round-off must not decide
 
 static constexpr double SIDE = 1.0e-9;
 

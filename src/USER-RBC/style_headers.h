@@ -1,5 +1,5 @@
-// Every header of a style in this package. No include guard: styles.cpp includes the list twice, once
-// for the classes and once for the table.
+// Every header of a style in this package. No include guard: styles.cpp includes the list twice,
+// once for the classes and once for the table.
 #include "compute_rbc_aggregate.h"
 #include "compute_rbc_cell.h"
 #include "fix_rbc_fluid.h"

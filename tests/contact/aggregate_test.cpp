@@ -145,8 +145,9 @@ TEST(AggregateSizes, ClassesHoldTheLargestAggregateThereCanBe)
 
 TEST(AggregateSizes, OfPercolationOnALine)
 {
-  // of neighbors joined with probability p, a share (1 - p) p^(s - 1) of the aggregates has size s (Stauffer and
-  // Aharony, Introduction to Percolation Theory, chapter 2): p^(2^n - 1) - p^(2^(n + 1) - 1) are in class n
+  // of neighbors joined with probability p, a share (1 - p) p^(s - 1) of the aggregates has size s
+  // (Stauffer and Aharony, Introduction to Percolation Theory, chapter 2): p^(2^n - 1) - p^(2^(n +
+  // 1) - 1) are in class n
   const int size = 400000;
   std::mt19937 random(11);
   for (double p : {0.3, 0.8, 0.9}) {

@@ -116,7 +116,8 @@ TEST(Adhesive, SolvesEquation7)
   std::cout << "radius of contact off by at most " << worst << "\n";
 }
 
-/// Integral by Simpson's rule in t of s = lo + t^2, which makes the square root at separation smooth.
+/// Integral by Simpson's rule in t of s = lo + t^2, which makes the square root at separation
+/// smooth.
 template <typename Function> double integral(const Function &f, double lo, double hi)
 {
   constexpr int n = 4000;

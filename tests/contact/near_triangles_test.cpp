@@ -163,7 +163,8 @@ TEST_P(Finder, SeesWhatItMayOfItsOwnSurface)
   }
 }
 
-// Most points have nothing near them, some only in a bin that shares no more than a corner with theirs.
+// Most points have nothing near them, some only in a bin that shares no more than a corner with
+// theirs.
 TEST(Finder, SmallSurfacesFarApart)
 {
   const test::Mesh mesh = test::icosphere(1);
@@ -231,7 +232,8 @@ TEST(Finder, PointOnTheSurface)
   }
 }
 
-/// Spheres in two distant groups, each of which moves as one, differ in motion only far from each other.
+/// Spheres in two distant groups, each of which moves as one, differ in motion only far from each
+/// other.
 TEST(RelativeMotion, CountsBetweenNeighborsOnly)
 {
   test::Random random(3);

@@ -1,4 +1,5 @@
-// Flows left to themselves: the Taylor-Green vortex, and the energy of a flow with hardly any viscosity.
+// Flows left to themselves: the Taylor-Green vortex, and the energy of a flow with hardly any
+// viscosity.
 
 #include "flow_support.h"
 #include "fluid/diagnostics.h"
@@ -14,7 +15,8 @@ Grid cube(int n)
   return {{n, n, 4}, {0, 0, 0}, {2 * pi / n, 2 * pi / n, 0.3}, false};
 }
 
-/// sin x cos y, -cos x sin y: its discrete advection is a discrete gradient, so that it keeps its shape.
+/// sin x cos y, -cos x sin y: its discrete advection is a discrete gradient, so that it keeps its
+/// shape.
 double vortex(int c, const Real3 &x)
 {
   if (c == 2) return 0;

@@ -1,4 +1,5 @@
-// Plates that the fluid slips along: closed forms, and the flow as half of that in a box twice as high.
+// Plates that the fluid slips along: closed forms, and the flow as half of that in a box twice as
+// high.
 
 #include "flow_support.h"
 

@@ -70,7 +70,8 @@ std::vector<double> saved(ForcedFlow &flow)
   return history;
 }
 
-/// Saved after a damped step and after others; into a new flow, and into one that has other steps behind it.
+/// Saved after a damped step and after others; into a new flow, and into one that has other steps
+/// behind it.
 TEST(History, RestoredGoesOnBitForBit)
 {
   for (const Case &which : cases())

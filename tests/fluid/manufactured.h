@@ -58,8 +58,8 @@ struct Jet {
   }
 };
 
-/// A flow that is given, and the force density that makes it: between plates at z = 0 and z = height,
-/// which move in time or let the fluid slip, or triply periodic.
+/// A flow that is given, and the force density that makes it: between plates at z = 0 and z =
+/// height, which move in time or let the fluid slip, or triply periodic.
 struct Manufactured {
   bool walls = true;
   PlateConditions conditions{};

@@ -15,7 +15,8 @@ constexpr double omega = 4;
 
 using Profile = std::function<double(double z, double t)>;
 
-/// Error of the velocity along x after n steps from time 0, on a grid with n cells from plate to plate.
+/// Error of the velocity along x after n steps from time 0, on a grid with n cells from plate to
+/// plate.
 double error(int n, double duration, const Profile &exact,
              const std::function<Forcing(double t)> &forcing,
              const PlateConditions &conditions = {})
@@ -35,7 +36,8 @@ double error(int n, double duration, const Profile &exact,
   return error.over_ranks().rms();
 }
 
-/// The upper plate starts at once: u = z/H + sum of 2 (-1)^n / (n pi) sin(n pi z/H) exp(-(n pi/H)^2 nu t).
+/// The upper plate starts at once: u = z/H + sum of 2 (-1)^n / (n pi) sin(n pi z/H) exp(-(n pi/H)^2
+/// nu t).
 TEST(PlaneFlow, OfAPlateThatStartsAtOnceIsOfSecondOrder)
 {
   const Profile exact = [](double z, double t) {

@@ -25,7 +25,8 @@ struct Drag {
   int markers, solves;
 };
 
-/// Steady drag of a sphere of markers that moves with unit velocity along x in a fluid of unit viscosity. Collective.
+/// Steady drag of a sphere of markers that moves with unit velocity along x in a fluid of unit
+/// viscosity. Collective.
 inline Drag drag(const Grid &grid, KernelKind kernel, Points points, double tolerance = 1e-3)
 {
   constexpr int ghost_layers = 4;
@@ -44,8 +45,8 @@ inline Drag drag(const Grid &grid, KernelKind kernel, Points points, double tole
   return {test::sum(sum), points.count(), outcome.solves};
 }
 
-/// Drag over 6 pi viscosity a U of a simple cubic array, U the mean velocity relative to the spheres, for few spheres:
-/// Sangani & Acrivos, Int. J. Multiphase Flow 8 (1982) 343.
+/// Drag over 6 pi viscosity a U of a simple cubic array, U the mean velocity relative to the
+/// spheres, for few spheres: Sangani & Acrivos, Int. J. Multiphase Flow 8 (1982) 343.
 inline double dilute_array(double radius_over_period)
 {
   const double c = 4 * pi / 3 * std::pow(radius_over_period, 3);
@@ -53,8 +54,8 @@ inline double dilute_array(double radius_over_period)
               3.0734 * std::pow(c, 10.0 / 3));
 }
 
-/// Radius of the sphere that drags as the markers at `radius` (all in cells) do, far from others: measured in an
-/// array of volume fraction 0.008.
+/// Radius of the sphere that drags as the markers at `radius` (all in cells) do, far from others:
+/// measured in an array of volume fraction 0.008.
 inline double hydrodynamic_radius(KernelKind kernel, double radius, double spacing)
 {
   const int n = fast_size(static_cast<int>(std::ceil(8 * radius)));

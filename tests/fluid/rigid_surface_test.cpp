@@ -105,8 +105,8 @@ TEST(RigidSurface, OffsetIsThatOfTheKernel)
   EXPECT_NEAR(mean_offset<Roma3>(), surface_offset(KernelKind::roma3), 1e-4);
 }
 
-/// A plane of markers that moves along itself between two plates: Couette flow on both sides. With a marker to a cell
-/// the problem is that of one dimension, where the offset is exact.
+/// A plane of markers that moves along itself between two plates: Couette flow on both sides. With
+/// a marker to a cell the problem is that of one dimension, where the offset is exact.
 TEST(RigidSurface, MovingPlane)
 {
   const Grid grid{{16, 16, 24}, {0, 0, 0}, {1, 1, 1}, true};
@@ -127,7 +127,8 @@ TEST(RigidSurface, MovingPlane)
     }
 }
 
-/// A plane that moves across a periodic box takes all fluid with it, with no force; the mean velocity follows.
+/// A plane that moves across a periodic box takes all fluid with it, with no force; the mean
+/// velocity follows.
 TEST(RigidSurface, CarriesItsFluid)
 {
   const Grid grid{{16, 16, 16}, {0, 0, 0}, {1, 1, 1}, false};
@@ -168,8 +169,8 @@ Grid around_tube(double radius, double length)
       {fast_size(static_cast<int>(std::lround(length))), wide, wide}, {0, 0, 0}, {1, 1, 1}, false};
 }
 
-/// Markers on a tube along x of the radius wide - depth (1 - cos(2 pi x / length)) / 2, or `outside` beyond it; with
-/// areas times normals in the place of forces.
+/// Markers on a tube along x of the radius wide - depth (1 - cos(2 pi x / length)) / 2, or
+/// `outside` beyond it; with areas times normals in the place of forces.
 struct Throat {
   double wide, depth;
 
@@ -218,7 +219,8 @@ double leakage(Scene &scene, const Throat &throat)
   return sum(through) / flow_rates(scene, throat.wide)[0];
 }
 
-/// A force density in a tube, straight or with a throat of half the width, which is 14 and 28 cells wide.
+/// A force density in a tube, straight or with a throat of half the width, which is 14 and 28 cells
+/// wide.
 double leakage(KernelKind kernel, double wide, double depth)
 {
   const Throat throat{wide, depth};
@@ -331,8 +333,9 @@ TEST(RigidSurface, OffsetOfAPlaneIsOfSecondOrder)
   }
 }
 
-/// Drag 6 pi viscosity a (K1 U - K2 V) of a sphere on the axis of a tube, V the velocity on the axis far away, by the
-/// method of reflections with all images (multipoles and Fourier-Bessel integrals, to more digits than given).
+/// Drag 6 pi viscosity a (K1 U - K2 V) of a sphere on the axis of a tube, V the velocity on the
+/// axis far away, by the method of reflections with all images (multipoles and Fourier-Bessel
+/// integrals, to more digits than given).
 TEST(RigidSurface, SphereOnTheAxisOfATube)
 {
   const double table[][3]{{0.1, 1.263216, 1.254796},
@@ -371,7 +374,8 @@ TEST(RigidSurface, SphereOnTheAxisOfATube)
     }
 }
 
-/// Mean of the solves of an evaluation in a tube in which a force moves along the wall, as of a cell.
+/// Mean of the solves of an evaluation in a tube in which a force moves along the wall, as of a
+/// cell.
 double mean_solves(double radius, double spacing, bool moves)
 {
   const Grid grid = around_tube(radius, 2 * radius);
@@ -412,7 +416,8 @@ TEST(RigidSurface, SolvesOfAnEvaluation)
   EXPECT_LT(finer, 1.3 * base);
 }
 
-/// A force as of a vertex pressed against the wall: markers yield by more than is allowed, and the rest is solved for.
+/// A force as of a vertex pressed against the wall: markers yield by more than is allowed, and the
+/// rest is solved for.
 TEST(RigidSurface, ForceNextToTheWall)
 {
   constexpr double radius = 14;

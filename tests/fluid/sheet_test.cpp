@@ -34,9 +34,10 @@ std::vector<Real3> velocities(const Grid &grid, const Decomposition &decompositi
   return velocity;
 }
 
-/// A plane of tangential forces between plates: Couette flow on both sides. Markers that are points lag by the offset in the
-/// mean over the places of the plane. Sheets do not, but for what the correction for planes across an axis differs from
-/// its mean over all directions, 1 and 5 %, and the offset in one place from its mean.
+/// A plane of tangential forces between plates: Couette flow on both sides. Markers that are points
+/// lag by the offset in the mean over the places of the plane. Sheets do not, but for what the
+/// correction for planes across an axis differs from its mean over all directions, 1 and 5 %, and
+/// the offset in one place from its mean.
 TEST(Sheet, PlaneBetweenPlates)
 {
   const Grid grid{{8, 8, 24}, {0, 0, 0}, {0.7, 0.7, 0.7}, true};
@@ -65,8 +66,9 @@ TEST(Sheet, PlaneBetweenPlates)
   }
 }
 
-/// Angular velocity, over the exact one, of a sphere of tractions that turn it, in a cubic array: that of a torque T is
-/// T (1 - c) / (8 pi viscosity a^3), c the volume fraction, to order c^(10/3).
+/// Angular velocity, over the exact one, of a sphere of tractions that turn it, in a cubic array:
+/// that of a torque T is T (1 - c) / (8 pi viscosity a^3), c the volume fraction, to order
+/// c^(10/3).
 double turning(KernelKind kernel, double radius, MarkerKind kind)
 {
   const int n = static_cast<int>(4 * radius);
@@ -128,7 +130,8 @@ TEST(Sheet, IsTheSameOnAnyRanks)
     }
 }
 
-/// Away from plates forces on sheets never gain energy, and one moves another as the other moves it.
+/// Away from plates forces on sheets never gain energy, and one moves another as the other moves
+/// it.
 TEST(Sheet, MobilityIsSymmetricAndPositive)
 {
   const Grid grid{{16, 12, 14}, {0.3, -5, 2}, {0.5, 0.4, 0.3}, false};

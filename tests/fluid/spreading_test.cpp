@@ -270,8 +270,8 @@ TEST(Coupling, ReportsTheFirstMarkerThatIsNotInReach)
         }
 }
 
-/// How far outside its brick, in cells, a marker may be with ghosts of width 4: until a point of its
-/// kernel, face or centre, is not stored. Rows along x are read four points at a time.
+/// How far outside its brick, in cells, a marker may be with ghosts of width 4: until a point of
+/// its kernel, face or centre, is not stored. Rows along x are read four points at a time.
 TEST(Coupling, ServesMarkersAsFarAsTheGhostsReach)
 {
   const Grid grid = grids()[0];

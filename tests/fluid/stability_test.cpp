@@ -37,7 +37,8 @@ template <typename Visit> void for_each_time_step(const Grid &grid, Visit visit)
   }
 }
 
-/// Distance from the steady flow of the same forces and plates: by the coupled scheme it never grows.
+/// Distance from the steady flow of the same forces and plates: by the coupled scheme it never
+/// grows.
 TEST(Stability, UnsteadyFlowComesCloserToTheSteadyOne)
 {
   for (const Case &which : cases()) {
@@ -69,7 +70,8 @@ TEST(Stability, UnsteadyFlowComesCloserToTheSteadyOne)
   }
 }
 
-/// The velocity that moves the markers, under forces and plates that change at random from step to step.
+/// The velocity that moves the markers, under forces and plates that change at random from step to
+/// step.
 TEST(Stability, VelocityInTheMiddleOfAStepIsBounded)
 {
   constexpr int steps = 60;
@@ -102,7 +104,8 @@ TEST(Stability, VelocityInTheMiddleOfAStepIsBounded)
   }
 }
 
-/// Convection by Adams-Bashforth, viscosity by Crank-Nicolson, with i c and -d their symbols times the step:
+/// Convection by Adams-Bashforth, viscosity by Crank-Nicolson, with i c and -d their symbols times
+/// the step:
 ///   (1 + d/2) G^2 - (1 - d/2 - 3/2 i c) G - i c/2 = 0.
 double amplification(double c, double d)
 {

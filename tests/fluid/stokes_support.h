@@ -100,8 +100,8 @@ class StokesCase {
   }
 
  private:
-  /// Velocity with the plates' rule. Without slip it is that of the plate midway between a point and its
-  /// image beyond; with slip the image has the velocity of the point.
+  /// Velocity with the plates' rule. Without slip it is that of the plate midway between a point
+  /// and its image beyond; with slip the image has the velocity of the point.
   double u(int c, int i, int j, int k) const
   {
     const int n = grid_.cells[2];

@@ -30,8 +30,8 @@ double Profile::operator()(double zeta, int derivative) const
 /// With theta = kx x + ky y + phase and k = |(kx, ky)|, for each wave
 ///   w = W(z) cos(theta),  along k: -W'(z) / k sin(theta),  across k: G(z) cos(theta),
 ///   p = P(z) cos(theta),
-/// where W, its slope and G vanish on the plates; and a mean flow M(z) in x and -M(z)/2 in y, plates
-/// that move and a body force.
+/// where W, its slope and G vanish on the plates; and a mean flow M(z) in x and -M(z)/2 in y,
+/// plates that move and a body force.
 struct WavesBetweenPlates {
   double viscosity, shift;
   Forcing forcing;
@@ -59,7 +59,8 @@ struct WavesBetweenPlates {
     linear = forcing.plates;
   }
 
-  /// Where the fluid slips W, its second derivative and the slopes of G and of the mean flow vanish.
+  /// Where the fluid slips W, its second derivative and the slopes of G and of the mean flow
+  /// vanish.
   WavesBetweenPlates(double viscosity, double shift, const PlateConditions &conditions) :
       WavesBetweenPlates(viscosity, shift)
   {

@@ -39,8 +39,8 @@ TEST_P(TimeStep, IsOfSecondOrderInSpaceAndTime)
   EXPECT_LT(fine.divergence, 1e-13);
 }
 
-/// Order from the differences of three flows on one grid, each with half the steps of the next. `stretch` is the
-/// ratio of the lengths of a step and the one before, which alternate.
+/// Order from the differences of three flows on one grid, each with half the steps of the next.
+/// `stretch` is the ratio of the lengths of a step and the one before, which alternate.
 double order_in_time(const Manufactured &exact, Scheme scheme, int n, int steps, double stretch = 1)
 {
   const Index3 cells{n, n, n};

@@ -107,7 +107,8 @@ struct Profile {
   double a0 = 0.207, a1 = 2.002, a2 = -1.122;
 };
 
-/// Biconcave disc of unit radius; its vertices have the distance from the axis that they have on the sphere.
+/// Biconcave disc of unit radius; its vertices have the distance from the axis that they have on
+/// the sphere.
 inline Mesh disc(int frequency, const Profile &profile = {})
 {
   Mesh mesh = icosphere(frequency);
@@ -118,7 +119,8 @@ inline Mesh disc(int frequency, const Profile &profile = {})
   return mesh;
 }
 
-/// The smooth disc where it is `angle` from the pole of the sphere it was made from: r = sin(angle).
+/// The smooth disc where it is `angle` from the pole of the sphere it was made from: r =
+/// sin(angle).
 struct SmoothDisc {
   Profile profile;
 
@@ -141,8 +143,9 @@ struct SmoothDisc {
     return {(along + around) / 2, along * around, arc};
   }
 
-  /// Outward normal force per area for kappa = 1 and c0 = 0, 2 (lapl H + 2 H (H^2 - K)) (Zhong-can and Helfrich,
-  /// Phys. Rev. A 39 (1989) 5280), with the Laplacian by finite differences of fourth order.
+  /// Outward normal force per area for kappa = 1 and c0 = 0, 2 (lapl H + 2 H (H^2 - K)) (Zhong-can
+  /// and Helfrich, Phys. Rev. A 39 (1989) 5280), with the Laplacian by finite differences of fourth
+  /// order.
   double bending_force(double angle) const
   {
     const double step = 2e-3;
@@ -220,8 +223,8 @@ class Random {
   std::mt19937 engine_;
 };
 
-/// Grown by a tenth and moved by long random waves: a smooth deformation of a cell of unit size with strains of
-/// some 20 %.
+/// Grown by a tenth and moved by long random waves: a smooth deformation of a cell of unit size
+/// with strains of some 20 %.
 inline Vertices waved(const Vertices &x, unsigned seed)
 {
   Random random(seed);
@@ -283,7 +286,8 @@ inline Vec3 closest_point(const Vec3 &x, const Vec3 &a, const Vec3 &b, const Vec
   return best;
 }
 
-/// Solid angle of the triangle from x over 4 pi, positive from inside (Van Oosterom and Strackee 1983).
+/// Solid angle of the triangle from x over 4 pi, positive from inside (Van Oosterom and Strackee
+/// 1983).
 inline double winding(const Vec3 &x, const Vec3 &a, const Vec3 &b, const Vec3 &c)
 {
   const Vec3 r = a - x, s = b - x, t = c - x;

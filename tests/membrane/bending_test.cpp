@@ -1,4 +1,5 @@
-// Both forms of bending: energies of spheres, tubes and the biconcave disc, normal forces on the disc.
+// Both forms of bending: energies of spheres, tubes and the biconcave disc, normal forces on the
+// disc.
 
 #include "disc_force.h"
 
@@ -58,8 +59,9 @@ TEST(Bending, EnergyOfASphereOf2562VerticesIsWithinOnePercent)
   EXPECT_NEAR(sphere_energy(16, 1, 1, 0) / (8 * pi), 1, 0.01);
 }
 
-/// The angle between the normals of triangles inscribed in the unit sphere: each is turned from their common edge by
-/// the height of its circumcentre over the edge, over the distance of the edge from the centre of the sphere.
+/// The angle between the normals of triangles inscribed in the unit sphere: each is turned from
+/// their common edge by the height of its circumcentre over the edge, over the distance of the edge
+/// from the centre of the sphere.
 double angle_on_sphere(const Mesh &mesh, const rbc::Hinge &hinge)
 {
   const Vec3 &a = mesh.vertices[hinge.a], &b = mesh.vertices[hinge.b];
@@ -108,8 +110,8 @@ TEST(Bending, DihedralSphereOfItsSpontaneousCurvatureIsAtRestToFourthOrder)
   }
 }
 
-/// Tube of unit radius of equilateral triangles, `around` of them around it, with pointed ends. Rows of edges run
-/// around the tube, or along it.
+/// Tube of unit radius of equilateral triangles, `around` of them around it, with pointed ends.
+/// Rows of edges run around the tube, or along it.
 Mesh tube(int around, int rows, bool along)
 {
   const double step = 2 * pi / around;

@@ -81,7 +81,8 @@ TEST(CellShape, EllipsoidOfSecondOrder)
           EXPECT_NEAR(order(last, error), 2, 0.05);
         }
         last = error;
-        // The mesh has the symmetry of the icosahedron: its covariance is that of the ellipsoid but for the size.
+        // The mesh has the symmetry of the icosahedron: its covariance is that of the ellipsoid but
+        // for the size.
         EXPECT_NEAR(found.deformation(), (falling[0] - falling[2]) / (falling[0] + falling[2]),
                     1e-13);
         if (falling[0] == falling[2]) continue;

@@ -4,8 +4,9 @@
 
 namespace test {
 
-/// Error of the normal bending force per area on the biconcave disc, for kappa = 1 and c0 = 0. But for
-/// `rms_everywhere` it is that without the vertices within two edges of the twelve where five triangles meet.
+/// Error of the normal bending force per area on the biconcave disc, for kappa = 1 and c0 = 0. But
+/// for `rms_everywhere` it is that without the vertices within two edges of the twelve where five
+/// triangles meet.
 struct DiscForceError {
   double rms = 0, median = 0, largest = 0;    ///< vertex by vertex
   double rms_everywhere = 0;

@@ -4,8 +4,8 @@
 
 namespace test {
 
-/// A number with its derivatives along two directions a and b, first and mixed second, exact to round-off (Fike &
-/// Alonso, AIAA 2011-886).
+/// A number with its derivatives along two directions a and b, first and mixed second, exact to
+/// round-off (Fike & Alonso, AIAA 2011-886).
 struct HyperDual {
   double value = 0, a = 0, b = 0, ab = 0;
 

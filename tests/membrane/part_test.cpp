@@ -193,14 +193,15 @@ TEST(Flaw, HealthyCellsHaveNone)
 
 TEST(Flaw, SharpTipsAreHealthy)
 {
-  // A tall pyramid over a flat triangle: one side is folded over two of its edges by 150 degrees, by 90 over the third.
+  // A tall pyramid over a flat triangle: one side is folded over two of its edges by 150 degrees,
+  // by 90 over the third.
   const Vertices x = {{-1, 0, 0}, {1, 0, 0}, {0, 0.577, 0}, {0, 0.19, 5}};
   EXPECT_EQ(find_flaw(rbc::SurfaceTemplate(x, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}), x),
             "");
 }
 
-/// A bipyramid over a square, pressed flat: at its rim the triangles are folded by twice the angle whose tangent is the
-/// height over the distance of the rim from the centre.
+/// A bipyramid over a square, pressed flat: at its rim the triangles are folded by twice the angle
+/// whose tangent is the height over the distance of the rim from the centre.
 TEST(Flaw, FoldsBeyond175DegreesAreFound)
 {
   const std::vector<std::array<int, 3>> triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
@@ -218,8 +219,8 @@ TEST(Flaw, FoldsBeyond175DegreesAreFound)
   }
 }
 
-/// A pyramid over a triangle, which is folded against all others by half a turn less the angle whose tangent is the height
-/// over the radius of the inscribed circle.
+/// A pyramid over a triangle, which is folded against all others by half a turn less the angle
+/// whose tangent is the height over the radius of the inscribed circle.
 TEST(Flaw, TrianglesFoldedByMoreThan120DegreesAgainstAllNeighborsAreInverted)
 {
   const double pi = std::acos(-1.0), root = std::sqrt(3.0);

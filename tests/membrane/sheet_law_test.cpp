@@ -1,4 +1,5 @@
-// Sheet laws: derivatives against finite differences, tensions against closed forms and published values.
+// Sheet laws: derivatives against finite differences, tensions against closed forms and published
+// values.
 
 #include "test_support.h"
 
@@ -10,7 +11,8 @@ using rbc::Skalak;
 
 namespace {
 
-/// Tension along the first axis per deformed length, (1/l2) dW/dl1, from the invariants i1 = l1^2 + l2^2, J = l1 l2.
+/// Tension along the first axis per deformed length, (1/l2) dW/dl1, from the invariants i1 = l1^2 +
+/// l2^2, J = l1 l2.
 template <typename Law> double tension(const Law &law, double l1, double l2)
 {
   const SheetEnergy W = law(l1 * l1 + l2 * l2, l1 * l2);

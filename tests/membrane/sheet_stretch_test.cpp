@@ -102,10 +102,10 @@ template <typename Function> double integral(const Function &f, double end)
   return sum * end / (3 * count);
 }
 
-/// Tension along the meridians of a sphere stretched by l1 along them and by l2 < l1 around them, a surface of
-/// revolution with r = l2 cos(latitude), dz^2 = l1^2 - l2^2 sin^2(latitude): from the work of the forces while l1
-/// grows by a smooth bump between the latitudes of 60 degrees, dE = l2 T1 * integral of the bump. The caps beyond,
-/// with a cone's tip at the pole, move as a whole.
+/// Tension along the meridians of a sphere stretched by l1 along them and by l2 < l1 around them, a
+/// surface of revolution with r = l2 cos(latitude), dz^2 = l1^2 - l2^2 sin^2(latitude): from the
+/// work of the forces while l1 grows by a smooth bump between the latitudes of 60 degrees, dE = l2
+/// T1 * integral of the bump. The caps beyond, with a cone's tip at the pole, move as a whole.
 double meridional_tension(int frequency, const rbc::SheetLaw &law, double l1, double l2)
 {
   const double end = pi / 3;
@@ -133,7 +133,8 @@ double meridional_tension(int frequency, const rbc::SheetLaw &law, double l1, do
   return work / (l2 * 4 * pi * integral(share, end));
 }
 
-/// Pressure that balances the forces while the volume grows, times the radius of the sphere of the stress-free volume.
+/// Pressure that balances the forces while the volume grows, times the radius of the sphere of the
+/// stress-free volume.
 double balloon_pressure(int frequency, const rbc::SheetLaw &law, double l)
 {
   const rbc::SurfaceTemplate &shape = sphere(frequency);
@@ -145,7 +146,8 @@ double balloon_pressure(int frequency, const rbc::SheetLaw &law, double l)
   return -virial(x, result.force) / (3 * result.size.volume) * radius;
 }
 
-/// Within 0.5 % with 1280 triangles; and of second order: what is left when it is extrapolated as such is far smaller.
+/// Within 0.5 % with 1280 triangles; and of second order: what is left when it is extrapolated as
+/// such is far smaller.
 template <typename Value> void expect_second_order(const Value &value, double exact)
 {
   const double coarse = value(4) / exact - 1, middle = value(8) / exact - 1,
@@ -187,7 +189,8 @@ TEST(SheetStretch, SkalakBalloons)
   }
 }
 
-/// Tension along the first side of a flat sheet with a front and a back, 1200 triangles. Its rim is 1e-8 high.
+/// Tension along the first side of a flat sheet with a front and a back, 1200 triangles. Its rim is
+/// 1e-8 high.
 double flat_tension(const rbc::SheetLaw &law, double l1, double l2)
 {
   Mesh mesh = cuboid({1, 1, 1}, 10);

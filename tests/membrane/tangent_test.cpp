@@ -1,5 +1,5 @@
-// Forces and their derivatives against automatic differentiation of energies written down anew: at large stretch,
-// with needles and with a triangle pressed flat.
+// Forces and their derivatives against automatic differentiation of energies written down anew: at
+// large stretch, with needles and with a triangle pressed flat.
 
 #include "hyper_dual.h"
 #include "test_support.h"
@@ -139,8 +139,8 @@ const std::map<std::string, Case> cases{
     {"Helfrich", bending(rbc::BendingForm::helfrich)},
     {"Dihedral", bending(rbc::BendingForm::dihedral)}};
 
-/// An end of an edge moved along it to a fiftieth of its length: needles with an angle of about 1 degree on both
-/// sides.
+/// An end of an edge moved along it to a fiftieth of its length: needles with an angle of about 1
+/// degree on both sides.
 Vertices with_needles(Vertices x, const rbc::Hinge &hinge)
 {
   x[hinge.a] = x[hinge.b] + 0.02 * (x[hinge.a] - x[hinge.b]);
@@ -161,8 +161,8 @@ double smallest_angle(const Mesh &mesh)
 
 class Tangent : public testing::TestWithParam<std::string> {
  protected:
-  /// The force is minus the gradient of the energy, and the difference of forces along a direction minus the product
-  /// of the matrix of second derivatives with it.
+  /// The force is minus the gradient of the energy, and the difference of forces along a direction
+  /// minus the product of the matrix of second derivatives with it.
   void expect(const Mesh &rest, const Vertices &x) const
   {
     const rbc::SurfaceTemplate shape = rest.surface();

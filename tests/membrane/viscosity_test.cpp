@@ -30,8 +30,8 @@ struct Sphere {
   Vertices v, f;
 };
 
-/// A unit sphere in axisymmetric strain diag(-1/2, -1/2, 1): D_theta - D_phi = 3/2 sin^2 theta, and the power is
-/// integral of eta (D_theta - D_phi)^2 = 24 pi / 5 eta.
+/// A unit sphere in axisymmetric strain diag(-1/2, -1/2, 1): D_theta - D_phi = 3/2 sin^2 theta, and
+/// the power is integral of eta (D_theta - D_phi)^2 = 24 pi / 5 eta.
 TEST(MembraneViscosity, DissipatesWhatASphereInStrainDoes)
 {
   const Matrix3 strain = rbc::Vec3(-0.5, -0.5, 1).asDiagonal();
@@ -74,7 +74,8 @@ TEST(MembraneViscosity, ForcesDoMinusThePowerAndSumToZero)
   EXPECT_LT(torque.norm(), 1e-14 * size);
 }
 
-/// The resistance is a symmetric matrix: forces of one motion do as much work in another as the other way round.
+/// The resistance is a symmetric matrix: forces of one motion do as much work in another as the
+/// other way round.
 TEST(MembraneViscosity, IsSymmetric)
 {
   Sphere sphere(3);

@@ -12,7 +12,8 @@ using rbc::Numbers;
 
 namespace {
 
-/// A slow rotation that two fast modes of rates `fast` and `fast`/5 follow: x2 -> x0^2, x3 -> sin(x1). Exact: a circle.
+/// A slow rotation that two fast modes of rates `fast` and `fast`/5 follow: x2 -> x0^2, x3 ->
+/// sin(x1). Exact: a circle.
 test::GivenMotion slow_and_fast(double fast)
 {
   return test::GivenMotion([fast](const Numbers &x, double, Numbers &v) {
@@ -64,7 +65,8 @@ TEST_P(Order, IsThatOfTheMethod)
   }
 }
 
-/// Fast modes relax to what moves them: the error is at least of second order, where a fast mode is not resolved at all.
+/// Fast modes relax to what moves them: the error is at least of second order, where a fast mode is
+/// not resolved at all.
 TEST_P(Order, HoldsForModesThatAreNotResolved)
 {
   const int order = GetParam();
@@ -75,7 +77,8 @@ TEST_P(Order, HoldsForModesThatAreNotResolved)
   }
 }
 
-/// Growth in 100 steps of random perturbations of modes all over the real interval, `times` the limit of stability.
+/// Growth in 100 steps of random perturbations of modes all over the real interval, `times` the
+/// limit of stability.
 double growth(int order, int stages, double times)
 {
   const int modes = 300;
@@ -137,7 +140,8 @@ TEST(Chebyshev, EvaluatesOncePerStageButTheFirst)
   EXPECT_EQ(motion.evaluations, 6);
 }
 
-/// What the motion is told of the time within a step: V = 3 t^2 is integrated with the order of the method.
+/// What the motion is told of the time within a step: V = 3 t^2 is integrated with the order of the
+/// method.
 TEST(Chebyshev, TellsTheFractionOfTheStep)
 {
   test::GivenMotion motion(

@@ -37,7 +37,8 @@ TEST(ResponseControl, FollowsAWantedValueThatChanges)
   }
 }
 
-/// Off by the second difference of the disturbance; also where the response has changed since it was measured.
+/// Off by the second difference of the disturbance; also where the response has changed since it
+/// was measured.
 TEST(ResponseControl, FollowsADisturbance)
 {
   for (const double response : {0.4, 0.35, 0.45}) {

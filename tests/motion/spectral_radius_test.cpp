@@ -63,7 +63,8 @@ TEST(SpectralRadius, FindsAModeThatTheGuessHardlyHolds)
   EXPECT_NEAR(spectrum.estimate(motion, x, v, 1e-4, mode), 2, 0.04);
 }
 
-/// A mode that has become the fastest since the last estimate, which goes on finding the one that was.
+/// A mode that has become the fastest since the last estimate, which goes on finding the one that
+/// was.
 TEST(SpectralRadius, FindsTheModeAlongWhichAnUnstableStepGrew)
 {
   const double slow = 1, fast = 9;

@@ -10,7 +10,8 @@ namespace test {
 
 using rbc::Numbers;
 
-/// Points whose velocity is a given function of their positions and of the fraction of the step; counts evaluations.
+/// Points whose velocity is a given function of their positions and of the fraction of the step;
+/// counts evaluations.
 class GivenMotion : public rbc::Motion {
  public:
   using Velocity = std::function<void(const Numbers &x, double fraction, Numbers &v)>;

@@ -1,4 +1,5 @@
-// Packing of rigid cells: its parts against closed forms and all pairs, the packings against all pairs of triangles.
+// Packing of rigid cells: its parts against closed forms and all pairs, the packings against all
+// pairs of triangles.
 
 #include "../geometry/test_support.h"
 #include "geometry/point_bins.h"

@@ -18,7 +18,8 @@ inline std::vector<Triangle> triangles_of(const Mesh &mesh)
   return triangles;
 }
 
-/// A tube along x with the section of a regular polygon: two triangles a side and layer, open at both ends.
+/// A tube along x with the section of a regular polygon: two triangles a side and layer, open at
+/// both ends.
 inline std::vector<Triangle> prism(int sides, double inradius, double lo, double length, int layers,
                                    double y, double z)
 {

@@ -75,7 +75,8 @@ std::string problem(const std::vector<Triangle> &triangles, const PackingBox &bo
 constexpr int sides = 12;
 const PackingBox along_x{Vec3(-2, -6, -5), Vec3(7, 11, 10), {true, false, true}};
 
-/// Through the periodic faces, of long triangles that reach from one to the other, and of short ones.
+/// Through the periodic faces, of long triangles that reach from one to the other, and of short
+/// ones.
 TEST(TriangulatedSolid, TubeGoesOnThroughPeriodicFaces)
 {
   test::Random random(7);

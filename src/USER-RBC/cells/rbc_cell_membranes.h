@@ -20,8 +20,8 @@ struct MembraneSettings {
   bool volume_kept = true;
 };
 
-/// The membranes of one fix rbc/membrane: forces, viscosity and volume of those parts of its cells that this rank
-/// holds. Positions, velocities and forces are those of LAMMPS's atoms.
+/// The membranes of one fix rbc/membrane: forces, viscosity and volume of those parts of its cells
+/// that this rank holds. Positions, velocities and forces are those of LAMMPS's atoms.
 class CellMembranes : public StepPart, protected Pointers {
  public:
   /// `style` names the fix in errors.
@@ -35,7 +35,8 @@ class CellMembranes : public StepPart, protected Pointers {
   LocalCells &local_cells() { return cells_; }
   const LocalCells &local_cells() const { return cells_; }
 
-  /// Collective, at the start of a run: finds the cells. Errors end the run unless a driver asks for them.
+  /// Collective, at the start of a run: finds the cells. Errors end the run unless a driver asks
+  /// for them.
   void start_run();
 
   /// Collective, after atoms migrated.
@@ -66,10 +67,12 @@ class CellMembranes : public StepPart, protected Pointers {
   /// Adds a multiple of the viscous forces at the atoms' velocities.
   void add_viscous_forces(bool with_virial, double multiple = 1);
 
-  /// Keeps the velocities at which the viscosity that thins is linearised. If `frozen` it stays what it is there.
+  /// Keeps the velocities at which the viscosity that thins is linearised. If `frozen` it stays
+  /// what it is there.
   void linearise(bool frozen);
 
-  /// Adds the change of the viscous forces if the velocities of linearise() change by those of the atoms.
+  /// Adds the change of the viscous forces if the velocities of linearise() change by those of the
+  /// atoms.
   void add_viscous_change();
 
   /// Power dissipated in all cells. Collective.
@@ -81,9 +84,10 @@ class CellMembranes : public StepPart, protected Pointers {
 
   /// Takes from the atoms' velocities what would change the volumes of their cells:
   ///   sum_i dV/dx_i . v_i = (V_rest - V) / (10 dt) + dV_rest/dt,
-  /// by a multiple of the volume's gradient, which changes neither a cell's velocity nor its rotation. An evaluation at
-  /// the start of a step (`new_step`) sets the first rate, which the stages after it keep. In the middle of a step
-  /// (`mid_step`) the rest volume is that of the middle. Collective.
+  /// by a multiple of the volume's gradient, which changes neither a cell's velocity nor its
+  /// rotation. An evaluation at the start of a step (`new_step`) sets the first rate, which the
+  /// stages after it keep. In the middle of a step (`mid_step`) the rest volume is that of the
+  /// middle. Collective.
   void constrain_volume(double dt, bool new_step, bool mid_step);
 
   void report_to(const std::shared_ptr<CollectiveStop> &driver) override { stop_ = driver; }

@@ -10,7 +10,8 @@
 
 namespace LAMMPS_NS {
 
-/// The cells of all fixes rbc/membrane whose atoms are all in a group, numbered in order of molecule ID.
+/// The cells of all fixes rbc/membrane whose atoms are all in a group, numbered in order of
+/// molecule ID.
 class GroupCells : protected Pointers {
  public:
   /// `owner` names the style and its ID in errors.

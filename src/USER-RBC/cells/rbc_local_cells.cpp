@@ -182,7 +182,8 @@ void LocalCells::check_complete(const std::vector<int> &owned_count) const
 }
 
 /* ----------------------------------------------------------------------
-   positions of all atoms here, of ghosts too: which image of a vertex is the cell's own does not depend on how far it is
+   positions of all atoms here, of ghosts too: which image of a vertex is the cell's own does not
+   depend on how far it is
 ------------------------------------------------------------------------- */
 
 void LocalCells::unwrap()

@@ -11,8 +11,9 @@
 
 namespace LAMMPS_NS {
 
-/// The cells made from one template in a group, and what this rank holds of them. A vertex is known by its atom ID:
-/// those of a cell are consecutive, in the order of the template. Cells are numbered in order of molecule ID.
+/// The cells made from one template in a group, and what this rank holds of them. A vertex is known
+/// by its atom ID: those of a cell are consecutive, in the order of the template. Cells are
+/// numbered in order of molecule ID.
 class LocalCells : protected Pointers {
  public:
   /// One cell of which this rank owns a vertex.
@@ -30,8 +31,8 @@ class LocalCells : protected Pointers {
   /// Collective: finds the group's cells and checks that each is whole.
   void identify();
 
-  /// Collective, after atoms migrated: finds which vertices this rank holds. With `bending` the forces on a vertex
-  /// reach its neighbours' neighbours.
+  /// Collective, after atoms migrated: finds which vertices this rank holds. With `bending` the
+  /// forces on a vertex reach its neighbours' neighbours.
   void update_ownership(bool bending);
 
   const std::vector<tagint> &molecules() const { return molecule_ids; }

@@ -15,7 +15,8 @@ using namespace LAMMPS_NS;
 
 static constexpr double STRETCH = 1.5;
 
-// the finder looks no further than this part of what ghosts allow, and once more on the way: lists are shorter by far
+// the finder looks no further than this part of what ghosts allow, and once more on the way: lists
+// are shorter by far
 
 static constexpr double FINER = 0.25;
 
@@ -101,7 +102,8 @@ double NearSurfaces::area(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   ghosts are there up to the ghost cutoff; from an owned vertex it must reach all corners of triangles near it
+   ghosts are there up to the ghost cutoff; from an owned vertex it must reach all corners of
+   triangles near it
 ------------------------------------------------------------------------- */
 
 double NearSurfaces::longest_known_edge(double range, double slack) const

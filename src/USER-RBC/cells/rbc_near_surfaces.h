@@ -17,13 +17,14 @@ namespace LAMMPS_NS {
 /// The vertices that this rank owns and the surfaces of cells near them, of all fixes rbc/membrane.
 class NearSurfaces : protected Pointers {
  public:
-  /// A vertex and the closest point of a surface that it sees. Points and corners are local indices of atoms; corners
-  /// may be ghosts.
+  /// A vertex and the closest point of a surface that it sees. Points and corners are local indices
+  /// of atoms; corners may be ghosts.
   using Contact = rbc::VertexContact;
 
   NearSurfaces(LAMMPS *lmp, std::string style);
 
-  /// Vertices see their own cell, too, but for the triangles nearer than `patch` along the edges of the cell at rest.
+  /// Vertices see their own cell, too, but for the triangles nearer than `patch` along the edges of
+  /// the cell at rest.
   void see_own_cells(double patch) { own_patch = patch; }
 
   /// Collective, at the start of a run: finds the cells.
@@ -35,13 +36,13 @@ class NearSurfaces : protected Pointers {
   /// An error if ghosts do not reach far enough for build().
   void check_ghosts(double range, double slack) const { longest_known_edge(range, slack); }
 
-  /// Collective, with ghosts at their places: finds what comes nearer than `range` before atoms moved by slack / 2.
-  /// Since ghosts were chosen they may have moved by stale / 2. The ghost cutoff must be the sum of range, slack, stale
-  /// and longest_edge() at least.
+  /// Collective, with ghosts at their places: finds what comes nearer than `range` before atoms
+  /// moved by slack / 2. Since ghosts were chosen they may have moved by stale / 2. The ghost
+  /// cutoff must be the sum of range, slack, stale and longest_edge() at least.
   void build(double range, double slack, double stale = 0);
 
-  /// Collective, for positions that ghosts have too: one contact for each owned vertex and cell seen nearer to it than
-  /// `range`, at most that of build().
+  /// Collective, for positions that ghosts have too: one contact for each owned vertex and cell
+  /// seen nearer to it than `range`, at most that of build().
   const std::vector<Contact> &contacts(double range);
 
   bool is_vertex(int i) const { return shape_of(i) != nullptr; }

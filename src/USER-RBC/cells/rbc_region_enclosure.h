@@ -5,8 +5,8 @@
 
 namespace LAMMPS_NS {
 
-/// A region of LAMMPS and what lies within an offset of its surface, or, with a negative offset, the region without what
-/// lies that near to it. Points are taken into the box first.
+/// A region of LAMMPS and what lies within an offset of its surface, or, with a negative offset,
+/// the region without what lies that near to it. Points are taken into the box first.
 class RegionEnclosure : public rbc::Enclosure {
  public:
   RegionEnclosure(class Region *region, class Domain *domain, double offset = 0) :

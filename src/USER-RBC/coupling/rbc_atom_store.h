@@ -7,8 +7,8 @@
 
 namespace LAMMPS_NS {
 
-/// Vectors of the markers in LAMMPS's fix STORE/ATOM, which keeps them while atoms migrate and in restart files. A
-/// column of steps known comes first where an integrator asks for it.
+/// Vectors of the markers in LAMMPS's fix STORE/ATOM, which keeps them while atoms migrate and in
+/// restart files. A column of steps known comes first where an integrator asks for it.
 class AtomStore : public rbc::PointStore {
  public:
   explicit AtomStore(const ImmersedMarkers &markers) : markers_(markers) {}

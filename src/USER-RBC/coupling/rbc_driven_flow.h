@@ -18,8 +18,8 @@ namespace LAMMPS_NS {
 
 class FluidClient;
 
-/// A flow and all that acts on it: forcing, the region inside of which the body force acts, walls of atoms, and the time
-/// within a step. An evaluation is
+/// A flow and all that acts on it: forcing, the region inside of which the body force acts, walls
+/// of atoms, and the time within a step. An evaluation is
 ///   clear_force, spread, solve, interpolate, finish_step
 /// and may be made any number of times for the same step and time.
 class DrivenFlow : public StepPart, protected Pointers {
@@ -51,7 +51,8 @@ class DrivenFlow : public StepPart, protected Pointers {
 
   // Time. Collective where forcing or walls depend on variables.
 
-  /// A flow that has made steps goes on from the forcing at the end of the last, though variables may jump between runs.
+  /// A flow that has made steps goes on from the forcing at the end of the last, though variables
+  /// may jump between runs.
   void set_time_at_setup();
 
   /// To the end of the step that LAMMPS is at.
@@ -66,8 +67,8 @@ class DrivenFlow : public StepPart, protected Pointers {
   /// Walls at the end of the step.
   void place_walls(double fraction);
 
-  /// The mean velocity inside a vessel is held. correct_flow_rate() adjusts the forcing by what the last solve gave, and
-  /// returns whether the next one is a probe of the response. Collective.
+  /// The mean velocity inside a vessel is held. correct_flow_rate() adjusts the forcing by what the
+  /// last solve gave, and returns whether the next one is a probe of the response. Collective.
   bool controls_flow_rate() const { return forcing_.held_direction() >= 0; }
   bool correct_flow_rate();
 
@@ -75,21 +76,24 @@ class DrivenFlow : public StepPart, protected Pointers {
 
   void clear_force();
 
-  /// Adds forces of markers, times a factor. Returns the first marker whose kernel leaves the ghost layers, or -1.
+  /// Adds forces of markers, times a factor. Returns the first marker whose kernel leaves the ghost
+  /// layers, or -1.
   int spread(const fluid::MarkerSet &markers, const double *force, double factor);
 
-  /// Solves for the flow of all forces, forcing and walls, and what was reported to `stop` ends the run before. With
-  /// inertia it starts a step of the fluid, whose velocity is then that of the middle. Without walls the velocity is as
-  /// if they were not there.
+  /// Solves for the flow of all forces, forcing and walls, and what was reported to `stop` ends the
+  /// run before. With inertia it starts a step of the fluid, whose velocity is then that of the
+  /// middle. Without walls the velocity is as if they were not there.
   void solve(CollectiveStop &stop, bool with_walls = true);
 
   void interpolate(const fluid::MarkerSet &markers, double *velocity);
 
-  /// Takes the place of clear_force, spread, solve and interpolate for markers with mass; with inertia only.
+  /// Takes the place of clear_force, spread, solve and interpolate for markers with mass; with
+  /// inertia only.
   fluid::DirectForcing::Outcome couple_masses(fluid::DirectForcing &direct,
                                               const fluid::DirectForcing::Problem &problem);
 
-  /// Velocities at the markers that further forces on them would add, without walls. Returns what spread does.
+  /// Velocities at the markers that further forces on them would add, without walls. Returns what
+  /// spread does.
   int apply_mobility(const fluid::MarkerSet &markers, const double *force, double *velocity);
 
   /// With inertia: the end of the fluid's step. Without: nothing.
@@ -110,7 +114,8 @@ class DrivenFlow : public StepPart, protected Pointers {
   const std::array<double, 3> &mean_inside();
   double inside_volume() { return inside_.volume(*flow_); }
 
-  /// Body force, or the pressure gradient that balances all forces where the mean velocity is held; force density.
+  /// Body force, or the pressure gradient that balances all forces where the mean velocity is held;
+  /// force density.
   double driving_force(int d) const;
 
   void count_from_here();

@@ -11,8 +11,9 @@
 
 namespace LAMMPS_NS {
 
-/// What drives a flow: velocities of the plates, body force and mean velocity, each component a number or a variable.
-/// Variables are evaluated at the ends of steps; within a step the forcing is interpolated between them.
+/// What drives a flow: velocities of the plates, body force and mean velocity, each component a
+/// number or a variable. Variables are evaluated at the ends of steps; within a step the forcing is
+/// interpolated between them.
 class FlowForcing : protected Pointers {
  public:
   using Vector = std::array<NumberOrVariable, 3>;
@@ -21,12 +22,13 @@ class FlowForcing : protected Pointers {
 
   Vector lower, upper, body, mean;
 
-  /// Holds the mean velocity inside a vessel along a direction, by the body force or, where the mean velocity of the
-  /// whole box is held, by that, in place of what is given for it.
+  /// Holds the mean velocity inside a vessel along a direction, by the body force or, where the
+  /// mean velocity of the whole box is held, by that, in place of what is given for it.
   void hold_inside(int direction, const NumberOrVariable &velocity);
   int held_direction() const { return held_direction_; }
 
-  /// At the start of a run: the response of the velocity is found anew. The probe is of an input of about that size.
+  /// At the start of a run: the response of the velocity is found anew. The probe is of an input of
+  /// about that size.
   void start_control(bool by_mean, double probe);
   bool probing() const { return control_.probing(); }
 

@@ -11,7 +11,8 @@
 
 namespace LAMMPS_NS {
 
-/// A flow with inertia in restart files: numbers that tell what it belongs to, solves so far, then its history.
+/// A flow with inertia in restart files: numbers that tell what it belongs to, solves so far, then
+/// its history.
 class FlowRestart : protected Pointers {
  public:
   FlowRestart(LAMMPS *lmp, std::string style) : Pointers(lmp), style_(std::move(style)) {}

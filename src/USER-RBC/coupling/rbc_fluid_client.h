@@ -8,8 +8,8 @@ namespace LAMMPS_NS {
 
 class WallGroup;
 
-/// A fix whose atoms are immersed in a fluid. At the start of a run fix rbc/fluid asks each of its clients what it
-/// needs.
+/// A fix whose atoms are immersed in a fluid. At the start of a run fix rbc/fluid asks each of its
+/// clients what it needs.
 class FluidClient {
  public:
   /// ID of the fix rbc/fluid that it belongs to.

@@ -119,8 +119,9 @@ void Reader::read_mean()
   const bool by_forces = args.take("force");
   const FlowForcing::Vector mean = by_forces ? FlowForcing::Vector() : args.vector();
   if (!domain->zperiodic)
-    args.fail("Fix rbc/fluid mean V1 V2 V3 or force needs a triply periodic box: between plates the "
-              "mean flow follows from them; mean x or y V holds one by a body force");
+    args.fail(
+        "Fix rbc/fluid mean V1 V2 V3 or force needs a triply periodic box: between plates the "
+        "mean flow follows from them; mean x or y V holds one by a body force");
   settings.free_mean = by_forces;
   mean_given = true;
   if (!by_forces) forcing.mean = mean;
@@ -163,8 +164,8 @@ void Reader::check()
 }
 
 /* ----------------------------------------------------------------------
-   spacing as near to dx as a whole number of cells allows; where the grid is transformed, not coarser, and of
-   numbers of cells without large prime factors
+   spacing as near to dx as a whole number of cells allows; where the grid is transformed, not
+   coarser, and of numbers of cells without large prime factors
 ------------------------------------------------------------------------- */
 
 void Reader::choose_grid()

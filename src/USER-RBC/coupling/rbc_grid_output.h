@@ -10,8 +10,9 @@
 
 namespace LAMMPS_NS {
 
-/// The flow at the centres of cells, in LAMMPS's arrays, as dumps and fix ave/grid ask for it. Each array is made when
-/// first asked for and filled at most once a version of the flow; the pressure costs a solve.
+/// The flow at the centres of cells, in LAMMPS's arrays, as dumps and fix ave/grid ask for it. Each
+/// array is made when first asked for and filled at most once a version of the flow; the pressure
+/// costs a solve.
 class GridOutput : protected Pointers {
  public:
   using Pointers::Pointers;

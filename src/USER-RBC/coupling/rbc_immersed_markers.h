@@ -18,8 +18,8 @@ class MassiveMarkers;
 
 /// The atoms of a group as markers of a flow. Their velocity is a function of positions and time:
 ///   forces -> spread -> solve -> interpolate -> velocities,
-/// and may be evaluated any number of times. Positions, velocities and forces are those of LAMMPS's atoms. All calls
-/// are collective.
+/// and may be evaluated any number of times. Positions, velocities and forces are those of LAMMPS's
+/// atoms. All calls are collective.
 class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers {
  public:
   struct Settings {
@@ -37,7 +37,8 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
   void start_run(DrivenFlow *flow, const std::vector<CellMembranes *> &membranes,
                  fluid::MarkerKind kind);
 
-  /// Viscosity of the membranes, solved for implicitly. Fluid with inertia: masses of the markers, or null.
+  /// Viscosity of the membranes, solved for implicitly. Fluid with inertia: masses of the markers,
+  /// or null.
   ImplicitViscosity &viscosity() { return viscosity_; }
   void set_masses(MassiveMarkers *masses) { masses_ = masses; }
 
@@ -63,7 +64,8 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
 
   using Stage = EvaluationStage;
 
-  /// Velocities from the forces that the atoms hold, which may depend on the velocities that they hold.
+  /// Velocities from the forces that the atoms hold, which may depend on the velocities that they
+  /// hold.
   void velocities_from_forces(Stage stage);
 
   /// The same without viscosity and checks: what the flow of the forces gives.
@@ -71,13 +73,15 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
 
   void constrain_volume(Stage stage);
 
-  /// All forces at the positions and with the velocities of the atoms, as Verlet computes them at the end of a step.
+  /// All forces at the positions and with the velocities of the atoms, as Verlet computes them at
+  /// the end of a step.
   void recompute_forces();
 
   /// The flow's velocity at the markers, as it is.
   void interpolate();
 
-  /// Velocities that the forces which the atoms hold would add, with a factor. `response` has a row for each atom here.
+  /// Velocities that the forces which the atoms hold would add, with a factor. `response` has a row
+  /// for each atom here.
   void apply_mobility(double factor, rbc::Numbers &response);
 
   fluid::MarkerSet set() const;
@@ -86,7 +90,8 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
   /// Time in which the fastest marker crosses half of what it may.
   double longest_step() const;
 
-  /// An error if a marker crosses too much in a step, or has no velocity. Markers beyond a plate are reported only.
+  /// An error if a marker crosses too much in a step, or has no velocity. Markers beyond a plate
+  /// are reported only.
   void check_velocities(Stage stage);
   void check_positions();
 

@@ -14,17 +14,19 @@ class CellMembranes;
 class DrivenFlow;
 class ImmersedMarkers;
 
-/// Velocities of markers in membranes with viscosity. The forces F were computed with the velocities v that the atoms
-/// had; the velocities V that are sought obey
+/// Velocities of markers in membranes with viscosity. The forces F were computed with the
+/// velocities v that the atoms had; the velocities V that are sought obey
 ///   (1 + M Z) V = M (F + Z v) + U,
-/// with Z the resistance of the membranes, M the mobility of the markers and U the flow of all else. Where Z depends on V
-/// this is Newton's method: Z is that of small changes of V, and what is left goes into the next round. A round that
-/// gains little is followed by one with the viscosity frozen, which always gains (Kacanov's method).
+/// with Z the resistance of the membranes, M the mobility of the markers and U the flow of all
+/// else. Where Z depends on V this is Newton's method: Z is that of small changes of V, and what is
+/// left goes into the next round. A round that gains little is followed by one with the viscosity
+/// frozen, which always gains (Kacanov's method).
 class ImplicitViscosity : protected Pointers {
  public:
   ImplicitViscosity(LAMMPS *lmp, ImmersedMarkers &markers) : Pointers(lmp), markers_(markers) {}
 
-  /// Error allowed in the velocities, relative to the fastest marker, and iterations of a linear solve.
+  /// Error allowed in the velocities, relative to the fastest marker, and iterations of a linear
+  /// solve.
   void choose(double tolerance, int max_iterations);
 
   /// At the start of a run.
@@ -32,7 +34,8 @@ class ImplicitViscosity : protected Pointers {
 
   bool is_any() const { return !viscous_.empty(); }
 
-  /// Collective: velocities from the forces and velocities that the atoms hold. An evaluation of the flow in each round.
+  /// Collective: velocities from the forces and velocities that the atoms hold. An evaluation of
+  /// the flow in each round.
   void solve(EvaluationStage stage);
 
   /// Evaluations that did not reach the tolerance in this run.

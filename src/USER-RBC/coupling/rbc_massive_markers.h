@@ -14,17 +14,18 @@ class DrivenFlow;
 class FixStoreAtom;
 class ImmersedMarkers;
 
-/// Markers whose mass is accelerated with the fluid (scheme direct), by a backward difference of second order over the
-/// velocities in the middle of this and the last two steps, and over fewer at first, from the atoms' own velocities on.
+/// Markers whose mass is accelerated with the fluid (scheme direct), by a backward difference of
+/// second order over the velocities in the middle of this and the last two steps, and over fewer at
+/// first, from the atoms' own velocities on.
 class MassiveMarkers : protected Pointers {
  public:
   explicit MassiveMarkers(LAMMPS *lmp) : Pointers(lmp) {}
 
   void choose(double tolerance, int max_solves);
 
-  /// Numbers kept for each atom while it migrates and in restart files: velocity in the middle of the step before the
-  /// last, inertial force, what the last velocity misses of what the forces would have made it (so that errors below the
-  /// tolerance do not add up), steps known (0 to 2).
+  /// Numbers kept for each atom while it migrates and in restart files: velocity in the middle of
+  /// the step before the last, inertial force, what the last velocity misses of what the forces
+  /// would have made it (so that errors below the tolerance do not add up), steps known (0 to 2).
   static constexpr int COLUMNS = 10;
   void keep_in(FixStoreAtom *store) { store_ = store; }
 

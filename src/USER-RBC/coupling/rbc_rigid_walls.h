@@ -14,7 +14,8 @@ class RigidWalls : public StepPart, protected Pointers {
  public:
   explicit RigidWalls(LAMMPS *lmp) : Pointers(lmp) {}
 
-  /// Collective, at the start of a run. `free_mean`: the mean velocity follows from the balance of forces.
+  /// Collective, at the start of a run. `free_mean`: the mean velocity follows from the balance of
+  /// forces.
   void connect(const std::vector<WallGroup *> &walls, bool free_mean);
 
   void atoms_migrated() { migrated_ = true; }
@@ -24,12 +25,14 @@ class RigidWalls : public StepPart, protected Pointers {
   void begin_step(bool again);
   void place(double fraction);
 
-  /// Collective, between clear_force and accumulate_ghosts of a flow: adds guessed forces of a time. `others` is as for
-  /// fluid::RigidSurface. Reports to `stop`. With a free mean the solve that follows is one for mean().
+  /// Collective, between clear_force and accumulate_ghosts of a flow: adds guessed forces of a
+  /// time. `others` is as for fluid::RigidSurface. Reports to `stop`. With a free mean the solve
+  /// that follows is one for mean().
   void spread(fluid::Flow &flow, double time, const std::array<double, 3> &others,
               CollectiveStop &stop);
 
-  /// Collective, once the flow is solved: corrects the forces, and the mean velocity where it is free.
+  /// Collective, once the flow is solved: corrects the forces, and the mean velocity where it is
+  /// free.
   void enforce(fluid::Flow &flow);
 
   /// The mean velocity that balances forces, where it is free.

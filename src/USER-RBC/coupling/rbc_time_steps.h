@@ -12,8 +12,8 @@
 
 namespace LAMMPS_NS {
 
-/// Time steps of markers and flow: an integrator, the choice of the timestep, and LAMMPS's clock. All calls are
-/// collective.
+/// Time steps of markers and flow: an integrator, the choice of the timestep, and LAMMPS's clock.
+/// All calls are collective.
 class TimeSteps : protected Pointers {
  public:
   /// `style` names the fix in errors. A control without a tolerance leaves LAMMPS's timestep alone.
@@ -27,7 +27,8 @@ class TimeSteps : protected Pointers {
   int columns() const { return AtomStore::columns(*integrator_); }
   void keep_in(FixStoreAtom *store) { store_.keep_in(store, *integrator_); }
 
-  /// At the start of a run; `forces_change` if the forces of the first step are not those of the setup.
+  /// At the start of a run; `forces_change` if the forces of the first step are not those of the
+  /// setup.
   void start_run(DrivenFlow *flow, bool forces_change);
   void atoms_migrated();
 

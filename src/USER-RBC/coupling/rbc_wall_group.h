@@ -12,7 +12,8 @@ namespace LAMMPS_NS {
 
 class RigidWalls;
 
-/// The atoms of a fix rbc/wall, which move as one with a prescribed velocity, and the forces on them.
+/// The atoms of a fix rbc/wall, which move as one with a prescribed velocity, and the forces on
+/// them.
 class WallGroup : protected Pointers {
  public:
   struct Settings {
@@ -42,11 +43,12 @@ class WallGroup : protected Pointers {
   bool moves() const;
   const std::array<double, 3> &velocity() const { return velocity_; }
 
-  /// Evaluates the velocity at the end of the step that begins; `again` if the step is made once more, with another
-  /// timestep. Collective where the velocity is a variable.
+  /// Evaluates the velocity at the end of the step that begins; `again` if the step is made once
+  /// more, with another timestep. Collective where the velocity is a variable.
   void begin_step(bool again);
 
-  /// Moves the atoms to where they are at a fraction of the step. The velocity is linear in time within it.
+  /// Moves the atoms to where they are at a fraction of the step. The velocity is linear in time
+  /// within it.
   void place(double fraction);
 
   /// Forces of the fluid on an atom in the last evaluation, then those in the evaluation before it.

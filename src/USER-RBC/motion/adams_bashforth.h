@@ -4,7 +4,8 @@
 
 namespace rbc {
 
-/// Adams-Bashforth method of second order for timesteps that vary. A point without a past takes an Euler step.
+/// Adams-Bashforth method of second order for timesteps that vary. A point without a past takes an
+/// Euler step.
 class AdamsBashforth : public Integrator {
  public:
   int order() const override { return 2; }

@@ -5,8 +5,8 @@
 
 namespace rbc {
 
-/// With the usual damping of 2/13 the fastest modes fall to 0.95 in a step. Differences of past places amplify what is
-/// left of them: somewhat stronger damping, at 1 % less stability.
+/// With the usual damping of 2/13 the fastest modes fall to 0.95 in a step. Differences of past
+/// places amplify what is left of them: somewhat stronger damping, at 1 % less stability.
 ChebyshevMethod::ChebyshevMethod(int order) : order_(order), damping_(order == 2 ? 2.0 / 13 : 0.25)
 {
 }

@@ -4,11 +4,13 @@
 
 namespace rbc {
 
-/// Runge-Kutta-Chebyshev method with s stages, for stiff problems with a nearly real spectrum (Sommeijer, Shampine and
-/// Verwer, J. Comput. Appl. Math. 88 (1998) 315). It is of second order. Applied to the deviation Y of the points from
-/// the cubic polynomial P through their last four places,
+/// Runge-Kutta-Chebyshev method with s stages, for stiff problems with a nearly real spectrum
+/// (Sommeijer, Shampine and Verwer, J. Comput. Appl. Math. 88 (1998) 315). It is of second order.
+/// Applied to the deviation Y of the points from the cubic polynomial P through their last four
+/// places,
 ///   Y' = V(P + Y) - P',
-/// it becomes a method of third order at no cost but memory: its error is that of a solution that nearly vanishes.
+/// it becomes a method of third order at no cost but memory: its error is that of a solution that
+/// nearly vanishes.
 class ChebyshevMethod {
  public:
   /// Round-off grows with the square of the stages: to 1e-8 of a step at the most.
@@ -23,22 +25,24 @@ class ChebyshevMethod {
   /// Largest time step times spectral radius.
   double stability_limit(int stages) const;
 
-  /// Fewest stages for a time step times spectral radius, MOST_STAGES + 1 where these are not enough.
+  /// Fewest stages for a time step times spectral radius, MOST_STAGES + 1 where these are not
+  /// enough.
   int stages_for(double stiffness) const;
 
   void set_stages(int stages);
   int stages() const { return static_cast<int>(stages_.size()); }
 
-  /// x = positions a time dt after `start`, where the velocity is `velocity`; stages() - 1 evaluations. The fractions of
-  /// the step that the motion hears of begin at `begin` and extend over `part`.
+  /// x = positions a time dt after `start`, where the velocity is `velocity`; stages() - 1
+  /// evaluations. The fractions of the step that the motion hears of begin at `begin` and extend
+  /// over `part`.
   void step(Motion &motion, double dt, const Numbers &start, const Numbers &velocity,
             const DisplacementHistory &past, Numbers &x, double begin = 0, double part = 1);
 
   std::size_t bytes() const;
 
  private:
-  /// Y = mu Y_1 + nu Y_2 + dt (rate V_1 + base V_0), at a fraction `at` of the step, with Y_1 and Y_2 the last two
-  /// stages, which count from the start.
+  /// Y = mu Y_1 + nu Y_2 + dt (rate V_1 + base V_0), at a fraction `at` of the step, with Y_1 and
+  /// Y_2 the last two stages, which count from the start.
   struct Stage {
     double mu, nu, rate, base, at;
   };

@@ -20,8 +20,8 @@ void DisplacementHistory::add(double span, const Numbers &moved)
   steps_ = std::min(steps_ + 1, most_);
 }
 
-/// The place k steps ago is X - moved_0 - .. - moved_k-1: displacement n counts, negative, in the Lagrange
-/// polynomials of all places before it.
+/// The place k steps ago is X - moved_0 - .. - moved_k-1: displacement n counts, negative, in the
+/// Lagrange polynomials of all places before it.
 DisplacementHistory::Weights DisplacementHistory::weights(double t, bool derivative) const
 {
   std::array<double, LONGEST + 1> time{};

@@ -6,7 +6,8 @@
 
 namespace rbc {
 
-/// Where points were at the ends of the last steps, and the polynomial in time through these places.
+/// Where points were at the ends of the last steps, and the polynomial in time through these
+/// places.
 class DisplacementHistory {
  public:
   static constexpr int LONGEST = 3;
@@ -19,8 +20,8 @@ class DisplacementHistory {
   /// A step that took `span` moved the points by `moved`.
   void add(double span, const Numbers &moved);
 
-  /// Weights w of the displacements, the last first, in the polynomial P(t) = X + sum_n w_n moved_n at time t from now,
-  /// and in its derivative.
+  /// Weights w of the displacements, the last first, in the polynomial P(t) = X + sum_n w_n moved_n
+  /// at time t from now, and in its derivative.
   using Weights = std::array<double, LONGEST>;
   Weights position_weights(double t) const { return weights(t, false); }
   Weights velocity_weights(double t) const { return weights(t, true); }

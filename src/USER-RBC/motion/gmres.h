@@ -7,16 +7,17 @@
 
 namespace rbc {
 
-/// Generalised minimal residual method for A y = r with a linear operator known by its action only (Saad and Schultz,
-/// SIAM J. Sci. Stat. Comput. 7 (1986) 856), without restarts: it keeps a vector per iteration.
+/// Generalised minimal residual method for A y = r with a linear operator known by its action only
+/// (Saad and Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856), without restarts: it keeps a vector
+/// per iteration.
 class Gmres {
  public:
   using Operator = std::function<void(const Numbers &, Numbers &)>;
 
   int max_iterations = 100;
 
-  /// Adds to y the solution for r, until the length of the residual is not above `tolerance` or max_iterations were
-  /// made. Returns that length. Two sums over ranks per iteration.
+  /// Adds to y the solution for r, until the length of the residual is not above `tolerance` or
+  /// max_iterations were made. Returns that length. Two sums over ranks per iteration.
   double solve(const Operator &apply, const Motion &motion, const Numbers &r, double tolerance,
                Numbers &y);
 

@@ -6,16 +6,16 @@
 
 namespace rbc {
 
-/// What is known at the start of a step: positions, velocities, timesteps of this step and of the last one (0 without
-/// one), number of the step.
+/// What is known at the start of a step: positions, velocities, timesteps of this step and of the
+/// last one (0 without one), number of the step.
 struct StepStart {
   const Numbers &x, &v;
   double dt, last_dt;
   std::int64_t step;
 };
 
-/// Vectors of three numbers, kept for each point from step to step and while points migrate between ranks. An entry
-/// that was never stored is zero.
+/// Vectors of three numbers, kept for each point from step to step and while points migrate between
+/// ranks. An entry that was never stored is zero.
 class PointStore {
  public:
   virtual void load(int vector, Numbers &values) const = 0;
@@ -29,8 +29,9 @@ class PointStore {
   ~PointStore() = default;
 };
 
-/// A method that advances points by a step. All calls are collective. A step that has no result throws StepFailure. A
-/// new method is a header that derives from this class, and a line in motion/integrators.h.
+/// A method that advances points by a step. All calls are collective. A step that has no result
+/// throws StepFailure. A new method is a header that derives from this class, and a line in
+/// motion/integrators.h.
 class Integrator {
  public:
   /// What goes into restart files, besides the vectors of the points.
@@ -45,8 +46,8 @@ class Integrator {
   /// Largest ratio of a timestep to the one before.
   virtual double largest_growth() const { return 2; }
 
-  /// Whether it may advance points in a fluid with inertia, whose velocities at the start of a step are those of the
-  /// middle of the last step.
+  /// Whether it may advance points in a fluid with inertia, whose velocities at the start of a step
+  /// are those of the middle of the last step.
   virtual bool allows_inertia() const { return false; }
 
   /// Vectors that it keeps for each point, and whether it asks for known_steps().

@@ -4,8 +4,8 @@
 
 namespace rbc {
 
-/// Explicit midpoint method. In the middle of the step a velocity at the start that is that of half a step before is as
-/// good: the method stays of second order.
+/// Explicit midpoint method. In the middle of the step a velocity at the start that is that of half
+/// a step before is as good: the method stays of second order.
 class Midpoint : public Integrator {
  public:
   int order() const override { return 2; }

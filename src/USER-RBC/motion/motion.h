@@ -10,13 +10,16 @@ namespace rbc {
 /// Three numbers for each of this rank's points.
 using Numbers = std::vector<double>;
 
-/// Points that move as dX/dt = V(X, t): what an integrator knows of what it advances. All calls are collective.
+/// Points that move as dX/dt = V(X, t): what an integrator knows of what it advances. All calls are
+/// collective.
 class Motion {
  public:
-  /// Makes `v` the velocity V at positions `x` and a fraction of the step. `v` comes with a guess of it.
+  /// Makes `v` the velocity V at positions `x` and a fraction of the step. `v` comes with a guess
+  /// of it.
   virtual void velocity(const Numbers &x, double fraction, Numbers &v) = 0;
 
-  /// Makes `v` the velocity at the positions `x` of the start of the step, where it is not that already.
+  /// Makes `v` the velocity at the positions `x` of the start of the step, where it is not that
+  /// already.
   virtual void velocity_at_start(const Numbers & /*x*/, Numbers & /*v*/) {}
 
   /// Adds `values` up over ranks.
@@ -25,8 +28,8 @@ class Motion {
   /// A number of each point's own, whatever rank holds it.
   virtual std::int64_t label(std::size_t point) const { return static_cast<std::int64_t>(point); }
 
-  /// While the spectrum is estimated, velocities belong to positions that the points do not take. The motion may leave
-  /// out what only makes fast modes slower, and accepts any speed.
+  /// While the spectrum is estimated, velocities belong to positions that the points do not take.
+  /// The motion may leave out what only makes fast modes slower, and accepts any speed.
   virtual void estimate_spectrum(bool /*on*/) {}
 
  protected:

@@ -2,8 +2,8 @@
 
 namespace rbc {
 
-/// Keeps a quantity at a wanted value by an input to which it responds linearly. What else it depends on, the
-/// disturbance, changes with time and is extrapolated.
+/// Keeps a quantity at a wanted value by an input to which it responds linearly. What else it
+/// depends on, the disturbance, changes with time and is extrapolated.
 class ResponseControl {
  public:
   double input() const { return input_; }

@@ -6,8 +6,9 @@
 
 namespace rbc {
 
-/// Runge-Kutta-Chebyshev method of second order, or of third with the displacements of the last steps. The number of
-/// stages is given or, where it is 0, the fewest that are stable for the spectral radius.
+/// Runge-Kutta-Chebyshev method of second order, or of third with the displacements of the last
+/// steps. The number of stages is given or, where it is 0, the fewest that are stable for the
+/// spectral radius.
 class RungeKuttaChebyshev : public Integrator {
  public:
   RungeKuttaChebyshev(int stages, int order);

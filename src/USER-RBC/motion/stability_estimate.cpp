@@ -7,8 +7,8 @@ namespace rbc {
 
 namespace {
 
-// The interval between estimates is halved where the radius changes by more than FAST_CHANGE from one to the next, and
-// doubled where it changes by less than STEADY_CHANGE.
+// The interval between estimates is halved where the radius changes by more than FAST_CHANGE from
+// one to the next, and doubled where it changes by less than STEADY_CHANGE.
 
 constexpr int SHORTEST_INTERVAL = 5, LONGEST_INTERVAL = 50;
 constexpr double STEADY_CHANGE = 0.01, FAST_CHANGE = 0.03;

@@ -5,9 +5,10 @@
 
 namespace rbc {
 
-/// The spectral radius for which steps must be stable, with a margin. It is estimated anew every few steps, the more
-/// often the faster it changes, and what grows is taken to grow on until the next estimate. The fastest mode found is
-/// kept in a vector of the points, from which the next estimate starts.
+/// The spectral radius for which steps must be stable, with a margin. It is estimated anew every
+/// few steps, the more often the faster it changes, and what grows is taken to grow on until the
+/// next estimate. The fastest mode found is kept in a vector of the points, from which the next
+/// estimate starts.
 class StabilityEstimate {
  public:
   /// At the start of a run; points are displaced by a small part of `length`.
@@ -16,7 +17,8 @@ class StabilityEstimate {
   /// The radius for a step; estimates it where it is due. Throws StepFailure if it is not a number.
   double radius(Motion &motion, PointStore &store, int mode_vector, const StepStart &start);
 
-  /// A step that led to `end` was refused: modes may have become faster. What it grew along joins the mode.
+  /// A step that led to `end` was refused: modes may have become faster. What it grew along joins
+  /// the mode.
   void suspect(const Motion &motion, PointStore &store, int mode_vector, const StepStart &start,
                const Numbers &end);
 

@@ -15,8 +15,8 @@ struct StepControl {
 
   bool active() const { return tolerance > 0; }
 
-  /// Local error of a step by the rule of Sommeijer, Shampine and Verwer: how far the positions are from a polynomial
-  /// with the velocities at both ends. `scratch` is overwritten.
+  /// Local error of a step by the rule of Sommeijer, Shampine and Verwer: how far the positions are
+  /// from a polynomial with the velocities at both ends. `scratch` is overwritten.
   static double error(const Motion &motion, double dt, const Numbers &start, const Numbers &end,
                       const Numbers &start_velocity, const Numbers &end_velocity, Numbers &scratch)
   {

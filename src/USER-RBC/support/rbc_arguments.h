@@ -13,8 +13,8 @@
 
 namespace LAMMPS_NS {
 
-/// The arguments of a style, read one after the other. What is wrong is an error of LAMMPS that points at the argument
-/// and names style, keyword, value and what is allowed.
+/// The arguments of a style, read one after the other. What is wrong is an error of LAMMPS that
+/// points at the argument and names style, keyword, value and what is allowed.
 class Arguments : protected Pointers {
  public:
   /// A word that begins a group of arguments, and what reads the others of the group.
@@ -25,7 +25,8 @@ class Arguments : protected Pointers {
 
   template <typename Value> using Choices = std::vector<std::pair<std::string, Value>>;
 
-  /// `style` is as in an input script, for example "fix rbc/ib"; arguments before `first` are read already.
+  /// `style` is as in an input script, for example "fix rbc/ib"; arguments before `first` are read
+  /// already.
   Arguments(LAMMPS *lmp, std::string style, int narg, char **arg, int first = 0);
 
   /// Reads groups of keywords in any order to the end.

@@ -11,13 +11,14 @@
 
 namespace LAMMPS_NS {
 
-/// Ends a run for what one task found. All tasks leave together: an abort by one (error->one) would cut off what the
-/// others have not yet written of log and thermodynamic output.
+/// Ends a run for what one task found. All tasks leave together: an abort by one (error->one) would
+/// cut off what the others have not yet written of log and thermodynamic output.
 class CollectiveStop : protected Pointers {
  public:
   using Pointers::Pointers;
 
-  /// While a step is tried that can be taken again, check() throws this on all ranks instead of ending the run.
+  /// While a step is tried that can be taken again, check() throws this on all ranks instead of
+  /// ending the run.
   struct FailedTrial : std::runtime_error {
     using std::runtime_error::runtime_error;
   };

@@ -8,9 +8,9 @@
 
 namespace LAMMPS_NS {
 
-/// Collective: the elements of all ranks of `world`, in the order of the ranks. Each may have another
-/// number of them. They are sent as bytes, so that all ranks must have the same representation, and
-/// those of all ranks must be less than 2^31 bytes.
+/// Collective: the elements of all ranks of `world`, in the order of the ranks. Each may have
+/// another number of them. They are sent as bytes, so that all ranks must have the same
+/// representation, and those of all ranks must be less than 2^31 bytes.
 template <typename Element>
 std::vector<Element> gather_all(const std::vector<Element> &mine, MPI_Comm world)
 {

@@ -6,7 +6,8 @@
 
 namespace LAMMPS_NS {
 
-/// A ghost cutoff that a style asks for. What an input script asks for with comm_modify cutoff is left alone.
+/// A ghost cutoff that a style asks for. What an input script asks for with comm_modify cutoff is
+/// left alone.
 class GhostCutoff : protected Pointers {
  public:
   using Pointers::Pointers;

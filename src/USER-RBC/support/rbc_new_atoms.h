@@ -8,8 +8,8 @@
 
 namespace LAMMPS_NS {
 
-/// Atoms made at places that all tasks know, in the same order on all; each task makes those that it owns. Their IDs follow
-/// those of the atoms that are there.
+/// Atoms made at places that all tasks know, in the same order on all; each task makes those that
+/// it owns. Their IDs follow those of the atoms that are there.
 class NewAtoms : protected Pointers {
  public:
   /// Collective. `style` is named in the error if there are no IDs for `count` atoms.

@@ -10,7 +10,8 @@
 
 namespace LAMMPS_NS {
 
-/// A style whose work belongs to the steps of a fix rbc/ib, which checks for its errors and reports its time.
+/// A style whose work belongs to the steps of a fix rbc/ib, which checks for its errors and reports
+/// its time.
 class StepPart {
  public:
   struct Section {
