@@ -159,7 +159,7 @@ class Surface(Case):
 
     def test_errors(self):
         for words, message in (("nope type 2 spacing 1", "Region ID nope for rbc/surface does not exist"),
-                               ("tube type 3 spacing 1", "Rbc/surface type 3 must be between 1 and 2"),
+                               ("tube type 3 spacing 1", "Rbc/surface type value 3 must be 1 or 2"),
                                ("tube type 2", "Rbc/surface needs spacing"),
                                ("tube spacing 1", "Rbc/surface needs type"),
                                ("tube type 2 spacing 0", "Rbc/surface spacing value 0 must be > 0"),
