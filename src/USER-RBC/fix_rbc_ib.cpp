@@ -27,6 +27,15 @@ static constexpr int NSTATE = 2 + TimeSteps::NSTATE;
 
 static const char *const DEFAULT_INTEGRATOR = "midpoint";
 
+/// What the arguments say, as far as the fix itself need not remember it.
+struct FixRBCIB::Settings {
+  ImmersedMarkers::Settings markers;
+  rbc::IntegratorOptions options;
+  const rbc::IntegratorKind *integrator = nullptr;
+  double error_bound = 0, largest_dt = 0, tolerance = 1e-4;
+  int max_solves = 100;
+};
+
 /* ---------------------------------------------------------------------- */
 
 FixRBCIB::FixRBCIB(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), cost(lmp)
@@ -39,7 +48,7 @@ FixRBCIB::FixRBCIB(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), cos
 
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix rbc/ib", error);
   fluid = arg[3];
-  parse(narg, arg);
+  build(read_arguments(narg, arg));
 
   if (stored() > 0) create_attribute = 1;
   if (stored() > 0 || steps->adaptive()) restart_global = 1;
@@ -47,67 +56,70 @@ FixRBCIB::FixRBCIB(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), cos
 
 /* ---------------------------------------------------------------------- */
 
-void FixRBCIB::parse(int narg, char **arg)
+FixRBCIB::Settings FixRBCIB::read_arguments(int narg, char **arg)
 {
-  ImmersedMarkers::Settings of_markers;
-  rbc::IntegratorOptions options;
-  const rbc::IntegratorKind *integrator = nullptr;
-  double error_bound = 0, largest_dt = 0, tolerance = 1e-4;
-  int max_solves = 100;
+  Settings settings;
   Arguments::Choices<const rbc::IntegratorKind *> integrators;
   for (const rbc::IntegratorKind &kind : rbc::integrator_kinds) {
     integrators.emplace_back(kind.word, &kind);
-    if (std::string(kind.word) == DEFAULT_INTEGRATOR) integrator = &kind;
+    if (std::string(kind.word) == DEFAULT_INTEGRATOR) settings.integrator = &kind;
   }
 
   Arguments args(lmp, "fix rbc/ib", narg, arg, 4);
-  args.read({{"kernel", [&] { of_markers.kernel = args.choice(kernel_words); }},
+  args.read({{"kernel", [&] { settings.markers.kernel = args.choice(kernel_words); }},
              {"scheme",
               [&] {
                 direct = args.choice<bool>({{"elastic", false}, {"direct", true}});
               }},
              {"integrator",
               [&] {
-                integrator = args.choice(integrators);
-                if (!integrator->takes_options) return;
-                args.enter(integrator->word);
-                options.stages = read_stages(args);
+                settings.integrator = args.choice(integrators);
+                if (!settings.integrator->takes_options) return;
+                args.enter(settings.integrator->word);
+                settings.options.stages = read_stages(args);
               }},
-             {"order", [&] { options.order = args.whole(2, 3); }},
+             {"order", [&] { settings.options.order = args.whole(2, 3); }},
              {"tol",
               [&] {
-                tolerance = args.between(0, 1);
+                settings.tolerance = args.between(0, 1);
                 iterates = true;
               }},
              {"maxiter",
               [&] {
-                max_solves = args.whole(1, MAXSMALLINT);
+                settings.max_solves = args.whole(1, MAXSMALLINT);
                 iterates = true;
               }},
-             {"courant", [&] { of_markers.courant = args.positive(); }},
+             {"courant", [&] { settings.markers.courant = args.positive(); }},
              {"adapt",
               [&] {
-                error_bound = args.positive("adapt error");
-                largest_dt = args.positive("adapt largest timestep");
+                settings.error_bound = args.positive("adapt error");
+                settings.largest_dt = args.positive("adapt largest timestep");
               }},
              {"sheets", [&] { sheets = args.logical() ? Sheets::YES : Sheets::NO; }}});
-  if (options.order > 2 && !integrator->takes_options)
-    error->all(FLERR, "Fix rbc/ib order {} needs integrator rkc", options.order);
+  if (settings.options.order > 2 && !settings.integrator->takes_options)
+    error->all(FLERR, "Fix rbc/ib order {} needs integrator rkc", settings.options.order);
   if (sheets == Sheets::YES && direct)
     error->all(FLERR, "Fix rbc/ib sheets yes needs scheme elastic");
+  settings.markers.timestep_follows = settings.error_bound > 0;
+  return settings;
+}
 
-  of_markers.timestep_follows = error_bound > 0;
-  courant = of_markers.courant;
-  most_solves = max_solves;
-  integrator_code = integrator->code;
+/* ---------------------------------------------------------------------- */
+
+void FixRBCIB::build(const Settings &settings)
+{
+  courant = settings.markers.courant;
+  most_solves = settings.max_solves;
+  integrator_code = settings.integrator->code;
   const std::string style = fmt::format("Fix rbc/ib {}", id);
-  markers = std::make_unique<ImmersedMarkers>(lmp, style, groupbit, of_markers);
-  markers->viscosity().choose(tolerance, max_solves);
-  steps = std::make_unique<TimeSteps>(lmp, style, *markers, integrator->make(options), error_bound,
-                                      largest_dt);
+  markers = std::make_unique<ImmersedMarkers>(lmp, style, groupbit, settings.markers);
+  markers->viscosity().choose(settings.tolerance, settings.max_solves);
+  steps =
+      std::make_unique<TimeSteps>(lmp, style, *markers, settings.integrator->make(settings.options),
+                                  settings.error_bound, settings.largest_dt);
   if (!direct) return;
   masses = std::make_unique<MassiveMarkers>(lmp);
-  masses->choose(tolerance, max_solves);
+  masses->choose(settings.tolerance, settings.max_solves);
   markers->set_masses(masses.get());
 }
 

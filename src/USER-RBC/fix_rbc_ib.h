@@ -63,8 +63,10 @@ class FixRBCIB : public Fix, public FluidClient {
   std::string store_id;
   class FixStoreAtom *store = nullptr;    // numbers kept for each atom
 
-  void parse(int, char **);
+  struct Settings;
+  Settings read_arguments(int, char **);
   int read_stages(class Arguments &) const;
+  void build(const Settings &);
   int stored() const;
   std::vector<FluidClient *> clients() const;
   void check_run() const;

@@ -123,8 +123,9 @@ void FixRBCMembrane::read_bending(Arguments &args, rbc::MembraneParameters &elas
   bool curved = false, formed = false;
   const auto once = [&](bool &given) {
     if (given)
-      args.fail("Fix rbc/membrane bending has a value too many: allowed are one of reference or "
-                "c0, and one of helfrich or dihedral");
+      args.fail("Fix rbc/membrane bending value {} is one too many: allowed are one of reference "
+                "or c0, and one of helfrich or dihedral",
+                args.word());
     given = true;
   };
   while (true) {

@@ -1,9 +1,10 @@
 """What bad input to pair_style rbc/jkr gets."""
 
+import re
 import unittest
 
 from error_case import BadInput, DuringARun
-from lammps_case import SHEAR
+from lammps_case import SHEAR, attempt, scene
 
 ADHESIVE = "pair_coeff 1 1 adhesive 0.0628 1e-3 0.3"
 
@@ -18,6 +19,7 @@ CONTACT_ERRORS = {
     "self without value": (contact("pair_style rbc/jkr 0.5 self"), ["pair_style rbc/jkr self", "missing"]),
     "self neither yes nor no": (contact("pair_style rbc/jkr 0.5 self maybe"), ["maybe"]),
     "cutoff zero": (contact("pair_style rbc/jkr 0"), ["rbc/jkr", "cutoff", "0", "> 0"]),
+    "cutoff infinite": (contact("pair_style rbc/jkr 1e999"), ["rbc/jkr cutoff value '1e999' must be a finite number"]),
     "cutoff no number": (contact("pair_style rbc/jkr far"), ["'far'", "rbc/jkr"]),
     "cutoff below the range": (contact("pair_style rbc/jkr 0.38"),
                                ["rbc/jkr", "cutoff", "0.38", "at least 0.382576", "types 1 1"]),
@@ -32,7 +34,7 @@ CONTACT_ERRORS = {
     "none with values": (contact(coeff="pair_coeff 1 1 none 1"), ["rbc/jkr none", "0 values"]),
     "K zero": (contact(coeff="pair_coeff 1 1 adhesive 0 1e-3 0.3"), ["adhesive K", "0", "> 0"]),
     "sigma negative": (contact(coeff="pair_coeff 1 1 adhesive 1 -1 0.3"), ["adhesive sigma", "-1", "> 0"]),
-    "R not a number": (contact(coeff="pair_coeff 1 1 repulsive 1 nan"), ["'nan'", "pair_coeff"]),
+    "R not a number": (contact(coeff="pair_coeff 1 1 repulsive 1 nan"), ["rbc/jkr repulsive R value 'nan' must be a finite number"]),
     "K no number": (contact(coeff="pair_coeff 1 1 repulsive hard 0.3"), ["'hard'", "pair_coeff"]),
     "too soft": (contact("pair_style rbc/jkr 1", "pair_coeff 1 1 adhesive 0.01 1e-3 0.3"),
                  ["rbc/jkr", "types 1 1", "overlap by", "sigma/K must be < 0.0826993"]),
@@ -58,6 +60,17 @@ class Contact(BadInput):
     def test_on_two_ranks(self):
         self.check({name: CONTACT_ERRORS[name] for name in ("atom of no cell", "cell of two types", "cutoff zero")},
                    ranks=2)
+
+
+    def test_the_argument_is_marked(self):
+        for pair, coeff, wrong in (("pair_style rbc/jkr -1", "", "-1"),
+                                   ("pair_style rbc/jkr 0.5 own yes", "", "own"),
+                                   ("pair_style hybrid rbc/jkr -1", "", "-1"),
+                                   ("pair_style rbc/jkr 0.5", "pair_coeff 1 1 repulsive 1 -2", "-2")):
+            with self.subTest(pair=pair, coeff=coeff):
+                printed = attempt(scene(**contact(pair, coeff))).printed
+                line, marks = re.search(r"^(Last input line: .*)\n( *\^+ *)$", printed, re.MULTILINE).groups()
+                self.assertEqual(line[marks.index("^"):marks.rindex("^") + 1], wrong, printed)
 
 
 class Stops(DuringARun):

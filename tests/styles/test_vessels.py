@@ -164,7 +164,7 @@ class Surface(Case):
                                ("tube spacing 1", "Rbc/surface needs type"),
                                ("tube type 2 spacing 0", "Rbc/surface spacing value 0 must be > 0"),
                                ("tube type 2 spacing 1 mass -1", "Rbc/surface mass value -1 must be > 0"),
-                               ("tube type 2 spacing 1 colour", "Illegal rbc/surface colour command"),
+                               ("tube type 2 spacing", "Illegal rbc/surface spacing command"),
                                ("tube type 2 spacing 1 colour red", "Unknown rbc/surface keyword colour; allowed: type"),
                                ("box type 2 spacing 1", "Rbc/surface region box has no surface in the simulation box")):
             self.error(message, before=f"{TUBE}\nrbc/surface {words}")

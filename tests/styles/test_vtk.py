@@ -332,7 +332,7 @@ run 3 pre no
         for arguments, message in (
                 ("0 cells.*.vtp", r"Fix rbc/vtk N value 0 must be > 0"),
                 ("-5 cells.*.vtp", r"Fix rbc/vtk N value -5 must be > 0"),
-                ("x cells.*.vtp", r"Expected integer"),
+                ("x cells.*.vtp", r"Fix rbc/vtk N value 'x' must be an integer > 0"),
                 ("10", r"Illegal fix rbc/vtk command: missing argument"),
                 ("10 cells.vtp", r"Fix rbc/vtk file name cells.vtp must contain a \*"),
                 ("10 cells.*.vtk", r"Fix rbc/vtk file name cells.\*.vtk must end in .vtp or .pvtp"),

@@ -109,19 +109,25 @@ void Reader::read_plate()
 
 void Reader::read_mean()
 {
+  const std::string first = args.peek();
   for (int d = 0; d < 3; ++d) {
     if (!args.take(std::string(1, "xyz"[d]))) continue;
     if (d == 2 && !domain->zperiodic)
       args.fail("Fix rbc/fluid mean z needs a triply periodic box: plates let no flow through");
+    if (forcing.held_direction() >= 0 && forcing.held_direction() != d)
+      args.fail("Fix rbc/fluid mean {} after mean {}: only one direction can be held", first,
+                "xyz"[forcing.held_direction()]);
     forcing.hold_inside(d, args.number_or_variable());
     return;
   }
   const bool by_forces = args.take("force");
   const FlowForcing::Vector mean = by_forces ? FlowForcing::Vector() : args.vector();
   if (!domain->zperiodic)
-    args.fail(
-        "Fix rbc/fluid mean V1 V2 V3 or force needs a triply periodic box: between plates the "
-        "mean flow follows from them; mean x or y V holds one by a body force");
+    args.fail("Fix rbc/fluid mean {} needs a triply periodic box: between plates the mean flow "
+              "follows from them; mean x or y V holds one by a body force",
+              first);
+  if (mean_given && by_forces != settings.free_mean)
+    args.fail("Fix rbc/fluid takes either mean force or mean vx vy vz, not both");
   settings.free_mean = by_forces;
   mean_given = true;
   if (!by_forces) forcing.mean = mean;

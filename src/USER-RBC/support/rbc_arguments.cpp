@@ -1,5 +1,7 @@
 #include "support/rbc_arguments.h"
 
+#include "error.h"
+#include "input.h"
 #include "utils.h"
 
 #include <algorithm>
@@ -9,19 +11,34 @@
 
 using namespace LAMMPS_NS;
 
+namespace {
+
+/// The word with those characters replaced that utils::numeric() replaces, too.
+std::string as_ascii(const std::string &word)
+{
+  return utils::has_utf8(word) ? utils::utf8_subst(word) : word;
+}
+
+bool is_finite_number(const std::string &word)
+{
+  return utils::is_double(word) && std::isfinite(std::strtod(word.c_str(), nullptr));
+}
+
+std::string range_of_integers(int least, int most)
+{
+  if (most == MAXSMALLINT) return least == 1 ? "> 0" : fmt::format("at least {}", least);
+  if (most == least + 1) return fmt::format("{} or {}", least, most);
+  return fmt::format("between {} and {}", least, most);
+}
+
+}    // namespace
+
 /* ---------------------------------------------------------------------- */
 
 Arguments::Arguments(LAMMPS *lmp, std::string style, int narg, char **arg, int first) :
     Pointers(lmp), style_(std::move(style)), narg_(narg), arg_(arg), next_(first)
 {
   if (narg < first) utils::missing_cmd_args(FLERR, style_, error);
-}
-
-std::string Arguments::style() const
-{
-  std::string style = style_;
-  style[0] = static_cast<char>(std::toupper(style[0]));
-  return style;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -61,7 +78,7 @@ bool Arguments::take(const std::string &word)
 
 bool Arguments::next_is_number() const
 {
-  return !at_end() && utils::is_double(arg_[next_]);
+  return !at_end() && utils::is_double(as_ascii(arg_[next_]));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -73,45 +90,47 @@ std::string Arguments::text()
   return arg_[next_++];
 }
 
-double Arguments::number()
+double Arguments::number(const std::string &name)
 {
-  const std::string word = text();
-  const double value = utils::numeric(FLERR, word, false, lmp);
-  if (!std::isfinite(value)) refuse(keyword_, "a finite number");
-  return value;
+  const std::string value = text();
+  if (!is_finite_number(as_ascii(value)))
+    refuse(named(name), '\'' + value + '\'', "a finite number");
+  return utils::numeric(FLERR, value, false, lmp);
 }
 
 double Arguments::positive(const std::string &name)
 {
-  const double value = number();
-  if (!(value > 0)) refuse(named(name), "> 0");
+  const double value = number(name);
+  if (!(value > 0)) refuse(named(name), word(), "> 0");
   return value;
 }
 
 double Arguments::not_negative(const std::string &name)
 {
-  const double value = number();
-  if (!(value >= 0)) refuse(named(name), ">= 0");
+  const double value = number(name);
+  if (!(value >= 0)) refuse(named(name), word(), ">= 0");
   return value;
 }
 
 double Arguments::between(double low, double high, const std::string &name)
 {
-  const double value = number();
+  const double value = number(name);
   if (!(value > low && value < high))
-    refuse(named(name), fmt::format("between {:g} and {:g}", low, high));
+    refuse(named(name), word(), fmt::format("between {:g} and {:g}", low, high));
   return value;
 }
 
 int Arguments::whole(int least, int most, const std::string &name)
 {
-  const std::string word = text();
-  const int value = utils::inumeric(FLERR, word, false, lmp);
-  if (value >= least && value <= most) return value;
-  if (most == MAXSMALLINT)
-    refuse(named(name), least == 1 ? "> 0" : fmt::format("at least {}", least));
-  if (most == least + 1) refuse(named(name), fmt::format("{} or {}", least, most));
-  refuse(named(name), fmt::format("between {} and {}", least, most));
+  const std::string typed = text();
+  const std::string digits = as_ascii(typed);
+  if (!utils::is_integer(digits))
+    refuse(named(name), '\'' + typed + '\'', "an integer " + range_of_integers(least, most));
+  const long long value = std::strtoll(digits.c_str(), nullptr, 10);
+  if (value > MAXSMALLINT)
+    refuse(named(name), typed, fmt::format("between {} and {}", least, most));
+  if (value < least || value > most) refuse(named(name), typed, range_of_integers(least, most));
+  return static_cast<int>(value);
 }
 
 bool Arguments::logical()
@@ -122,8 +141,10 @@ bool Arguments::logical()
 
 NumberOrVariable Arguments::number_or_variable()
 {
-  const std::string word = text();
-  return NumberOrVariable(lmp, word.c_str());
+  const std::string value = text();
+  if (!utils::strmatch(value, "^v_") && !is_finite_number(as_ascii(value)))
+    refuse(keyword_, '\'' + value + '\'', "a finite number or a variable v_name");
+  return NumberOrVariable(lmp, value.c_str());
 }
 
 std::array<NumberOrVariable, 3> Arguments::vector()
@@ -135,20 +156,40 @@ std::array<NumberOrVariable, 3> Arguments::vector()
 
 /* ---------------------------------------------------------------------- */
 
-void Arguments::stop(const std::string &message)
+std::string Arguments::sentence_start() const
 {
-  error->all(FLERR, last(), "{}", message);
-  std::abort();    // not reached
+  std::string style = style_;
+  style[0] = static_cast<char>(std::toupper(style[0]));
+  return style;
 }
 
-void Arguments::refuse(const std::string &name, const std::string &range)
+/* ----------------------------------------------------------------------
+   A style may be given a part of the arguments of the line, as pair styles are, or others than
+   those of the line. The error class wants an index of the line, and trusts it.
+------------------------------------------------------------------------- */
+
+int Arguments::place_in_line() const
+{
+  if (next_ == 0) return Error::NOPOINTER;
+  for (int i = 0; i < input->narg; ++i)
+    if (input->arg + i == arg_ + next_ - 1) return i;
+  return Error::NOPOINTER;
+}
+
+void Arguments::stop(const std::string &message)
+{
+  error->all(FLERR, place_in_line(), "{}", message);
+}
+
+void Arguments::refuse(const std::string &name, const std::string &value, const std::string &range)
 {
   const std::string what = name.empty() ? "" : name + ' ';
-  fail("{} {}value {} must be {}", style(), what, arg_[last()], range);
+  stop(fmt::format("{} {}value {} must be {}", sentence_start(), what, value, range));
 }
 
 void Arguments::unknown(const std::string &what, const std::string &word,
                         const std::vector<std::string> &allowed)
 {
-  fail("Unknown {} {} {}; allowed: {}", style_, what, word, utils::join_words(allowed, ", "));
+  stop(fmt::format("Unknown {} {} {}; allowed: {}", style_, what, word,
+                   utils::join_words(allowed, ", ")));
 }
