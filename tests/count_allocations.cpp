@@ -1,10 +1,12 @@
-// A library for LD_PRELOAD that counts the allocations of our own code, by the place that makes them.
+// A library for LD_PRELOAD that counts the allocations of our own code, by the place that makes
+// them.
 //
-// It takes the place of malloc and its relatives, which operator new calls, too. An allocation is ours
-// if the first caller that is no part of an allocator or of the standard library lies in an object whose
-// file name contains one of the words of COUNT_ALLOCATIONS_OF, separated by colons. When the program
-// ends, the file allocations.<pid> in the folder where the program started has a line for each place:
-// object, offset in it, number of allocations, symbol. Source of the entry points: glibc, malloc/malloc.c.
+// It takes the place of malloc and its relatives, which operator new calls, too. An allocation is
+// ours if the first caller that is no part of an allocator or of the standard library lies in an
+// object whose file name contains one of the words of COUNT_ALLOCATIONS_OF, separated by colons.
+// When the program ends, the file allocations.<pid> in the folder where it started has a line for
+// each place: object, offset in it, number of allocations, symbol. It relies on glibc, whose names
+// __libc_malloc and so on lead to the allocator itself.
 
 #include <atomic>
 #include <cerrno>
@@ -30,8 +32,8 @@ namespace {
 
 enum class Owner { NONE, PASSED_ON, OURS, OTHERS };
 
-// Memory of the counter itself is fixed, as it must not allocate. There is no lock: the loader holds
-// its own one both where it allocates and where it is asked for an object.
+// Memory of the counter itself is fixed, as it must not allocate. It takes no lock, because the
+// loader holds its own one both where it allocates and where it is asked for an object.
 struct Place {
   std::atomic<uintptr_t> address{0};
   std::atomic<Owner> owner{Owner::NONE};
@@ -55,8 +57,8 @@ const char *base_name(const char *path)
   return slash ? slash + 1 : path;
 }
 
-// The standard library's templates are compiled into whatever uses them, and LAMMPS's Memory allocates
-// for its callers: both pass on what others ask for.
+// The standard library's templates are compiled into whatever uses them, and LAMMPS's Memory
+// allocates for its callers. Both pass on what others ask for.
 Owner owner_of(uintptr_t address)
 {
   Dl_info info;

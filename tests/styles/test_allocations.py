@@ -1,4 +1,4 @@
-"""A step allocates nothing: what our own code allocates in a run does not depend on its number of steps.
+"""A step allocates nothing: what our code allocates does not depend on the number of steps.
 
 The library of count_allocations.cpp counts by the places that allocate. LIBCOUNT names its file, as
 ctest sets it. Allocations within LAMMPS, MPI and FFTW are theirs and do not count.
@@ -16,8 +16,9 @@ from lammps_case import SHEAR, in_parallel, run, scene
 SHORT, LONG = 30, 45
 # No list is built anew within a run.
 STILL = "neigh_modify delay 1000 every 1000 check no"
-BASE = dict(newton=STILL, timestep="timestep 20", thermo="thermo_style custom step f_flow[10] f_ib[5]",
-            every="thermo 1000", neighbor="neighbor 1.0 bin")
+BASE = dict(newton=STILL, timestep="timestep 20",
+            thermo="thermo_style custom step f_flow[10] f_ib[5]", every="thermo 1000",
+            neighbor="neighbor 1.0 bin")
 TUBE = dict(boundary="boundary p p p", box="region box block 0 14 0 20 0 20",
             create_box="create_box 2 box angle/types 1\nregion tube cylinder x 10 10 7 INF INF",
             cells="rbc/create rbc single 6 10.5 10 rotate 50 0 1 0 type 1\n"
@@ -35,7 +36,8 @@ DENSE = dict(box="region box block 0 12 0 12 0 14", timestep="timestep 2",
 
 
 def with_inertia(regime):
-    return dict(fluid=SHEAR["fluid"].replace("inertia none", f"inertia {regime}"), timestep="timestep 1")
+    return dict(fluid=SHEAR["fluid"].replace("inertia none", f"inertia {regime}"),
+                timestep="timestep 1")
 
 
 SCENES = {
@@ -46,7 +48,8 @@ SCENES = {
     "dense": dict(DENSE, ib=IB + "integrator rkc auto adapt 1e-3 2"),
     "walls": dict(TUBE, fluid=FLUID + "inside tube mean x 1e-3",
                   ib="fix ib cells rbc/ib flow integrator rkc auto"),
-    "walls body": dict(TUBE, fluid=FLUID + "inside tube body 5e-5 0 0", ib="fix ib cells rbc/ib flow"),
+    "walls body": dict(TUBE, fluid=FLUID + "inside tube body 5e-5 0 0",
+                       ib="fix ib cells rbc/ib flow"),
     "viscous": dict(membrane=SHEAR["membrane"] + " viscosity 50", ib=IB + "integrator rkc auto"),
     "thinning": dict(membrane=SHEAR["membrane"] + " viscosity 50 thinning 5 1e-4",
                      ib=IB + "integrator midpoint"),
@@ -57,7 +60,8 @@ SCENES = {
     "convective": with_inertia("convective"),
     "projection": with_inertia("convective scheme projection"),
     "direct": dict(with_inertia("unsteady"), ib=IB + "scheme direct", before="mass 1 0.05"),
-    "direct convective": dict(with_inertia("convective"), ib=IB + "scheme direct", before="mass 1 0.05")}
+    "direct convective": dict(with_inertia("convective"), ib=IB + "scheme direct",
+                              before="mass 1 0.05")}
 
 
 def counts(result):
@@ -72,8 +76,8 @@ def counts(result):
 
 def place(name, offset, symbol):
     """Function, file and line of a place, as far as the build has them."""
-    done = subprocess.run(["addr2line", "-f", "-C", "-i", "-e", name, offset], text=True, check=False,
-                          stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+    done = subprocess.run(["addr2line", "-f", "-C", "-i", "-e", name, offset], text=True,
+                          check=False, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
     lines = done.stdout.splitlines()
     pairs = [f"{function} {line}" for function, line in zip(lines[::2], lines[1::2])]
     ours = [pair for pair in pairs if re.search(r"/(fluid|USER-RBC)/", pair)]
