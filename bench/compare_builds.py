@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 
 TESTS = Path(__file__).resolve().parents[1] / "tests"
-sys.path[:0] = [str(path) for path in TESTS.iterdir() if path.is_dir()]
+sys.path[:0] = [str(TESTS / "helpers"), str(TESTS / "scenes")]
 
 from lammps_case import ENVIRONMENT, ROOT, SHEAR, attempt, in_parallel, scene
 from scene_case import example_script
