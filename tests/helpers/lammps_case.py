@@ -12,6 +12,7 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 
@@ -177,9 +178,11 @@ def attempt(script, ranks=1, plugin=False, timeout=120, files=None):
     command = [executable, "-in", "in.case", "-log", "log.case"]
     if ranks > 1:    # one rank starts faster by itself
         command = [os.environ["MPIEXEC"], "-np", str(ranks), *command]
-    with open(folder / "printed", "w+") as output:
-        process = subprocess.Popen(command, cwd=folder, env={**os.environ, **ENVIRONMENT}, stdin=subprocess.DEVNULL,
-                                   stdout=output, stderr=subprocess.STDOUT)
+    # A run that ends removes the folder of Open MPI's sessions, which another may be about to use.
+    with open(folder / "printed", "w+") as output, TemporaryDirectory() as session:
+        process = subprocess.Popen(
+            command, cwd=folder, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
+            env={**os.environ, **ENVIRONMENT, "OMPI_MCA_orte_tmpdir_base": session})
         try:
             code = process.wait(timeout)
         except subprocess.TimeoutExpired:
