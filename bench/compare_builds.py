@@ -199,26 +199,33 @@ def compare(builds, names, all_ranks, steps):
     return bad
 
 
-def instructions(builds, name):
-    """Instructions of one scene on one rank, by valgrind; its start is counted as well."""
-    script = scenes(10)[name]
+def instructions(builds, name, steps=(10, 40)):
+    """Instructions per step of one scene on one rank, by valgrind, from runs of two lengths."""
+    scripts = [scenes(length)[name] for length in steps]
     counts = []
     for label, build in zip(("before", "now"), builds):
-        folder = Path(label)
-        folder.mkdir(exist_ok=True)
-        (folder / "in.case").write_text(script)
-        done = subprocess.run(
-            ["valgrind", "--tool=callgrind", "--callgrind-out-file=callgrind.out", build,
-             "-in", "in.case", "-log", "none"], cwd=folder, text=True, check=False,
-            env={**os.environ, **ENVIRONMENT}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        found = re.search(r"Collected : (\d+)", done.stdout)
-        if done.returncode or not found:
-            print(done.stdout[-2000:])
-            sys.exit(f"{build} does not run under valgrind, which knows no AVX-512: build it with"
-                     " -D RBC_NATIVE=OFF")
-        counts.append(int(found.group(1)))
-        print(f"{label:8} {counts[-1]:15d} instructions, {name}")
+        found = [collected(build, script, Path(f"{label}{length}"))
+                 for script, length in zip(scripts, steps)]
+        counts.append((found[1] - found[0]) / (steps[1] - steps[0]))
+        print(f"{label:8} {counts[-1]:15.0f} instructions per step, {found[0]} in all of"
+              f" {steps[0]} steps: {name}")
     print(f"ratio    {counts[1] / counts[0]:.4f}")
+
+
+def collected(build, script, folder):
+    """Instructions of a whole run."""
+    folder.mkdir(exist_ok=True)
+    (folder / "in.case").write_text(script)
+    done = subprocess.run(
+        ["valgrind", "--tool=callgrind", "--callgrind-out-file=callgrind.out", build,
+         "-in", "in.case", "-log", "none"], cwd=folder, text=True, check=False,
+        env={**os.environ, **ENVIRONMENT}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    found = re.search(r"Collected : (\d+)", done.stdout)
+    if done.returncode or not found:
+        print(done.stdout[-2000:])
+        sys.exit(f"{build} does not run under valgrind, which knows no AVX-512: build it with"
+                 " -D RBC_NATIVE=OFF")
+    return int(found.group(1))
 
 
 def main():
