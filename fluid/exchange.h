@@ -13,6 +13,18 @@ struct Transfer {
   Box box;
 };
 
+/// Parts of `mine` that lie in the boxes of the ranks. `theirs` has one box for each rank; empty
+/// parts are left out.
+inline std::vector<Transfer> overlaps(const Box &mine, const std::vector<Box> &theirs)
+{
+  std::vector<Transfer> parts;
+  for (int r = 0; r < static_cast<int>(theirs.size()); ++r) {
+    const Box box = intersection(mine, theirs[r]);
+    if (!box.empty()) parts.push_back({r, box});
+  }
+  return parts;
+}
+
 /// Work done by communication since construction: what this rank sent to others.
 struct Traffic {
   long messages = 0;

@@ -26,23 +26,22 @@ Flow::Flow(const Grid &grid, const Decomposition &decomposition, int ghost_layer
     grid_(grid),
     decomposition_(decomposition), equations_(equations),
     halo_(grid, decomposition, std::max(ghost_layers, 1)), has_force_(ghost_layers > 0),
-    velocity_(halo_.box()),
     solver_(grid, decomposition, equations.viscosity, 0.0, equations.hold_mean, equations.scheme)
 {
-  if (has_force_) force_ = VectorField(halo_.box());
+  total_.velocity = VectorField(halo_.box());
+  if (has_force_) total_.force = VectorField(halo_.box());
   if (equations.inertia != Inertia::none) previous_ = VectorField(halo_.box());
   if (equations.inertia == Inertia::convective) rhs_ = VectorField(brick());
 }
 
 void Flow::clear_force()
 {
-  force_.clear();
-  lower_direct_ = upper_direct_ = {0, 0, 0};
+  total_.clear_force();
 }
 
 int Flow::spread(const MarkerSet &markers, const double *force, double factor)
 {
-  return fluid::spread(grid_, markers, force, factor, force_, reach(markers.kind));
+  return fluid::spread(grid_, markers, force, factor, total_.force, reach(markers.kind));
 }
 
 /// Where kernels find velocities: of sheets where these have neighbors on all sides, and beyond
@@ -86,14 +85,14 @@ const VectorField &Flow::kink_corrected(KernelKind kernel, const VectorField &ve
 
 void Flow::accumulate_ghosts()
 {
-  if (grid_.plates) fold_force(grid_, force_, lower_direct_, upper_direct_);
-  halo_.accumulate(force_.views());
+  if (grid_.plates) fold_force(grid_, total_.force, total_.into_lower, total_.into_upper);
+  halo_.accumulate(total_.force.views());
 }
 
 void Flow::solve(const Forcing &forcing)
 {
-  if (!has_force()) velocity_.clear();
-  solve_now(has_force() ? force_ : velocity_, forcing);
+  if (!has_force()) total_.velocity.clear();
+  solve_now(has_force() ? total_.force : total_.velocity, forcing);
   plates_ = forcing.plates;
   shared_ = false;
 }
@@ -101,7 +100,7 @@ void Flow::solve(const Forcing &forcing)
 void Flow::solve_now(const VectorField &rhs, const Forcing &forcing)
 {
   solved_forcing_ = forcing;
-  solve_for(velocity_, rhs, forcing);
+  solve_for(total_.velocity, rhs, forcing);
 }
 
 void Flow::solve_for(const VectorField &velocity, const VectorField &rhs, const Forcing &forcing)
@@ -127,7 +126,7 @@ void Flow::assemble(const VectorField &velocity, const VectorField &result) cons
       double *const row = &to(first, j, k);
       for (int i = 0; i < n; ++i) row[i] = shift_ * u_row[i];
       if (!has_force()) return;
-      const double *const f = &force_[c](first, j, k);
+      const double *const f = &total_.force[c](first, j, k);
       for (int i = 0; i < n; ++i) row[i] += f[i];
     });
 }
@@ -141,17 +140,17 @@ void Flow::start_step(double dt, const Forcing &forcing)
 
   if (equations_.inertia == Inertia::convective) {
     fill_ghosts();
-    assemble(velocity_, rhs_);
+    assemble(total_.velocity, rhs_);
     const double extrapolation = steps_ > 0 ? 0.5 * dt / before : 0;
-    add_advection(grid_, brick(), velocity_, -equations_.density * (1 + extrapolation), rhs_);
+    add_advection(grid_, brick(), total_.velocity, -equations_.density * (1 + extrapolation), rhs_);
     if (extrapolation > 0)
       add_advection(grid_, brick(), previous_, equations_.density * extrapolation, rhs_);
-    std::swap(velocity_, previous_);
+    std::swap(total_.velocity, previous_);
     solve_now(rhs_, forcing);
   } else {
-    std::swap(velocity_, previous_);
-    assemble(previous_, velocity_);
-    solve_now(velocity_, forcing);
+    std::swap(total_.velocity, previous_);
+    assemble(previous_, total_.velocity);
+    solve_now(total_.velocity, forcing);
   }
   previous_plates_ = plates_;
   previous_shared_ = shared_;
@@ -165,26 +164,27 @@ void Flow::finish_step(const Forcing &forcing)
   plates_ = forcing.plates;
   if (!damped()) {
     shared_ = shared_ && previous_shared_;
-    const Box &box = shared_ ? velocity_.box() : brick();
+    const Box &box = shared_ ? total_.velocity.box() : brick();
     for (int c = 0; c < 3; ++c)
-      for_each_row(box, [&, u = velocity_[c], start = previous_[c]](int j, int k) {
+      for_each_row(box, [&, u = total_.velocity[c], start = previous_[c]](int j, int k) {
         double *const row = &u(box.lo[0], j, k);
         const double *const start_row = &start(box.lo[0], j, k);
         for (int i = 0; i < box.extent(0); ++i) row[i] = 2 * row[i] - start_row[i];
       });
-    if (grid_.plates && shared_) reflect_velocity(grid_, plates_, velocity_);
+    if (grid_.plates && shared_) reflect_velocity(grid_, plates_, total_.velocity);
   } else if (equations_.inertia == Inertia::convective) {
     for (int c = 0; c < 3; ++c)
-      for_each_row(brick(), [&, u = velocity_[c], start = previous_[c], r = rhs_[c]](int j, int k) {
-        for (int i = brick().lo[0]; i < brick().hi[0]; ++i)
-          r(i, j, k) += shift_ * (u(i, j, k) - start(i, j, k));
-      });
+      for_each_row(brick(),
+                   [&, u = total_.velocity[c], start = previous_[c], r = rhs_[c]](int j, int k) {
+                     for (int i = brick().lo[0]; i < brick().hi[0]; ++i)
+                       r(i, j, k) += shift_ * (u(i, j, k) - start(i, j, k));
+                   });
     solve_now(rhs_, forcing);
     shared_ = false;
   } else {
-    std::swap(velocity_, previous_);
-    assemble(previous_, velocity_);
-    solve_now(velocity_, forcing);
+    std::swap(total_.velocity, previous_);
+    assemble(previous_, total_.velocity);
+    solve_now(total_.velocity, forcing);
     shared_ = false;
   }
   ++steps_;
@@ -192,7 +192,7 @@ void Flow::finish_step(const Forcing &forcing)
 
 void Flow::fill_ghosts()
 {
-  if (!shared_) fill_ghosts_of(velocity_, plates_);
+  if (!shared_) fill_ghosts_of(total_.velocity, plates_);
   shared_ = true;
 }
 
@@ -206,7 +206,7 @@ Real3 Flow::mean_force() const
 {
   Real3 mean{0, 0, 0};
   if (has_force_) {
-    const auto f = force_.views();
+    const auto f = total_.force.views();
     for_each_cell(brick(), [&](int i, int j, int k) {
       for (int c = 0; c < 3; ++c) mean[c] += f[c](i, j, k) / grid_.size();
     });
@@ -217,7 +217,7 @@ Real3 Flow::mean_force() const
 
 void Flow::fill_force_ghosts()
 {
-  halo_.fill(force_.views());
+  halo_.fill(total_.force.views());
 }
 
 /// The velocity field that kernels of such markers interpolate.
@@ -231,36 +231,35 @@ const VectorField &Flow::seen_by(const MarkerSet &markers, const VectorField &ve
 void Flow::interpolate(const MarkerSet &markers, double *velocity)
 {
   fill_ghosts();
-  fluid::interpolate(grid_, markers, seen_by(markers, velocity_, plates_), velocity);
+  fluid::interpolate(grid_, markers, seen_by(markers, total_.velocity, plates_), velocity);
 }
 
 int Flow::apply_mobility(const MarkerSet &markers, const double *force, double *velocity)
 {
-  if (!mobility_flow_.bytes()) {
-    mobility_force_ = VectorField(halo_.box());
-    mobility_flow_ = VectorField(halo_.box());
+  if (!mobility_.velocity.bytes()) {
+    mobility_.force = VectorField(halo_.box());
+    mobility_.velocity = VectorField(halo_.box());
   }
-  mobility_force_.clear();
+  mobility_.clear_force();
   const int outside =
-      fluid::spread(grid_, markers, force, 1.0, mobility_force_, reach(markers.kind));
-  mobility_lower_ = mobility_upper_ = {0, 0, 0};
-  if (grid_.plates) fold_force(grid_, mobility_force_, mobility_lower_, mobility_upper_);
-  halo_.accumulate(mobility_force_.views());
-  solve_for(mobility_flow_, mobility_force_, {});
-  fill_ghosts_of(mobility_flow_, {});
+      fluid::spread(grid_, markers, force, 1.0, mobility_.force, reach(markers.kind));
+  if (grid_.plates) fold_force(grid_, mobility_.force, mobility_.into_lower, mobility_.into_upper);
+  halo_.accumulate(mobility_.force.views());
+  solve_for(mobility_.velocity, mobility_.force, {});
+  fill_ghosts_of(mobility_.velocity, {});
   if (outside < 0)
-    fluid::interpolate(grid_, markers, seen_by(markers, mobility_flow_, {}), velocity);
+    fluid::interpolate(grid_, markers, seen_by(markers, mobility_.velocity, {}), velocity);
   return outside;
 }
 
 void Flow::add_mobility_flow(double factor)
 {
-  add(brick(), force_, factor, mobility_force_);
-  if (equations_.inertia == Inertia::convective) add(brick(), rhs_, factor, mobility_force_);
-  add(brick(), velocity_, factor, mobility_flow_);
+  add(brick(), total_.force, factor, mobility_.force);
+  if (equations_.inertia == Inertia::convective) add(brick(), rhs_, factor, mobility_.force);
+  add(brick(), total_.velocity, factor, mobility_.velocity);
   for (int c = 0; c < 3; ++c) {
-    lower_direct_[c] += factor * mobility_lower_[c];
-    upper_direct_[c] += factor * mobility_upper_[c];
+    total_.into_lower[c] += factor * mobility_.into_lower[c];
+    total_.into_upper[c] += factor * mobility_.into_upper[c];
   }
 }
 
@@ -268,8 +267,8 @@ void Flow::add_mean(const Real3 &velocity)
 {
   assert(!grid_.plates && equations_.inertia == Inertia::none);
   for (int c = 0; c < 3; ++c) {
-    double *const u = velocity_[c].data;
-    const std::size_t n = velocity_.box().size();
+    double *const u = total_.velocity[c].data;
+    const std::size_t n = total_.velocity.box().size();
     for (std::size_t i = 0; i < n; ++i) u[i] += velocity[c];
   }
 }
@@ -283,7 +282,7 @@ const ScalarField &Flow::pressure()
   const bool forces_only = steady && has_force_;
   if (!kept && !forces_only && !rhs_.bytes()) rhs_ = VectorField(brick());
   if (!kept && equations_.inertia == Inertia::unsteady) assemble(previous_, rhs_);
-  solver_.pressure(forces_only ? force_ : rhs_, solved_forcing_, pressure_);
+  solver_.pressure(forces_only ? total_.force : rhs_, solved_forcing_, pressure_);
   return pressure_;
 }
 
@@ -296,8 +295,8 @@ Traffic Flow::traffic() const
 std::size_t Flow::bytes() const
 {
   std::size_t sum = pressure_.bytes() + halo_.bytes() + solver_.bytes();
-  for (const VectorField *field :
-       {&force_, &velocity_, &previous_, &rhs_, &mobility_force_, &mobility_flow_, &sharp_})
+  for (const VectorField *field : {&total_.force, &total_.velocity, &previous_, &rhs_,
+                                   &mobility_.force, &mobility_.velocity, &sharp_})
     sum += field->bytes();
   return sum;
 }

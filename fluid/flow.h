@@ -73,17 +73,17 @@ class Flow {
   const Decomposition &decomposition() const { return decomposition_; }
   const Box &brick() const { return decomposition_.mine(); }
   bool has_force() const { return has_force_; }
-  const VectorField &force() const { return force_; }
+  const VectorField &force() const { return total_.force; }
 
   /// Over all cells of the grid. Collective.
   Real3 mean_force() const;
 
-  const VectorField &velocity() const { return velocity_; }
+  const VectorField &velocity() const { return total_.velocity; }
 
   /// Sets a velocity to start from, without divergence: velocity(c, i, j, k) on the brick's faces.
   template <typename Value> void set_velocity(Value value)
   {
-    const auto u = velocity_.views();
+    const auto u = total_.velocity.views();
     for (int c = 0; c < 3; ++c)
       for_each_cell(brick(), [&](int i, int j, int k) { u[c](i, j, k) = value(c, i, j, k); });
     shared_ = false;
@@ -93,8 +93,8 @@ class Flow {
   const ScalarField &pressure();
 
   /// Force density (summed over this rank's cells) that went straight into a plate.
-  const Real3 &lower_direct() const { return lower_direct_; }
-  const Real3 &upper_direct() const { return upper_direct_; }
+  const Real3 &lower_direct() const { return total_.into_lower; }
+  const Real3 &upper_direct() const { return total_.into_upper; }
 
   /// What a flow with inertia remembers from step to step, of the whole grid, on rank 0; elsewhere
   /// empty. Collective.
@@ -109,6 +109,18 @@ class Flow {
   std::size_t bytes() const;
 
  private:
+  /// Forces and the velocity that they give, with what of the forces goes straight into the plates.
+  struct ForcedVelocity {
+    VectorField force, velocity;
+    Real3 into_lower{0, 0, 0}, into_upper{0, 0, 0};
+
+    void clear_force()
+    {
+      force.clear();
+      into_lower = into_upper = {0, 0, 0};
+    }
+  };
+
   bool damped() const { return steps_ < 2; }
   void assemble(const VectorField &velocity, const VectorField &result) const;
   void set_shift(double shift);
@@ -127,11 +139,10 @@ class Flow {
   Halo halo_;
   bool has_force_;
   long solves_ = 0;
-  VectorField force_, velocity_;
+  ForcedVelocity total_;
   Forcing solved_forcing_;    ///< of the last solve
   PlateVelocities plates_;    ///< of the time of the velocity
   bool shared_ = false;       ///< the ghosts of the velocity are filled
-  Real3 lower_direct_{0, 0, 0}, upper_direct_{0, 0, 0};
 
   // with inertia
   int steps_ = 0;
@@ -143,9 +154,8 @@ class Flow {
   bool stepped_ = false;    ///< since construction
 
   ScalarField pressure_;
-  VectorField mobility_force_, mobility_flow_;    ///< of the last apply_mobility
-  VectorField sharp_;                             ///< velocity of sheets
-  Real3 mobility_lower_{0, 0, 0}, mobility_upper_{0, 0, 0};
+  ForcedVelocity mobility_;    ///< of the last apply_mobility
+  VectorField sharp_;          ///< velocity of sheets
   StokesSolver solver_;
 };
 

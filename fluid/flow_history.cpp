@@ -42,7 +42,7 @@ std::vector<double> Flow::history()
          {plates_.lower, plates_.upper, previous_plates_.lower, previous_plates_.upper})
       all.insert(all.end(), wall.begin(), wall.end());
   }
-  append(gather(comm, decomposition_.bricks, grid_.domain(), velocity_));
+  append(gather(comm, decomposition_.bricks, grid_.domain(), total_.velocity));
   if (equations_.inertia == Inertia::convective)
     append(gather(comm, decomposition_.bricks, grid_.domain(), previous_));
   if (const auto *kept = solver_.kept_modes())
@@ -61,7 +61,7 @@ void Flow::restore(const double *history)
     wall += 3;
   }
   const double *next = history + head;
-  cut_out(brick(), grid_.domain(), next, velocity_);
+  cut_out(brick(), grid_.domain(), next, total_.velocity);
   next += 3 * grid_.size();
   if (equations_.inertia == Inertia::convective) {
     cut_out(brick(), grid_.domain(), next, previous_);
@@ -80,8 +80,8 @@ void Flow::take_over(Flow &old)
   plates_ = old.plates_;
   previous_plates_ = old.previous_plates_;
   if (has_force_) {
-    lower_direct_ = old.lower_direct_;
-    upper_direct_ = old.upper_direct_;
+    total_.into_lower = old.total_.into_lower;
+    total_.into_upper = old.total_.into_upper;
   }
   steps_ = old.steps_;
   solves_ = old.solves_;
@@ -93,8 +93,8 @@ void Flow::take_over(Flow &old)
     move(decomposition_.comm, old.decomposition_.bricks, from.views(), decomposition_.bricks,
          to.views());
   };
-  move_field(old.velocity_, velocity_);
-  if (old.has_force_ && has_force_) move_field(old.force_, force_);
+  move_field(old.total_.velocity, total_.velocity);
+  if (old.has_force_ && has_force_) move_field(old.total_.force, total_.force);
   if (equations_.inertia != Inertia::none) move_field(old.previous_, previous_);
   if (equations_.inertia == Inertia::convective) move_field(old.rhs_, rhs_);
   if (equations_.inertia == Inertia::convective) fill_ghosts_of(previous_, previous_plates_);

@@ -84,7 +84,7 @@ RowTransform::RowTransform(int length) : length_(length), rows_(std::size_t(pair
   backward_ = plan(FFTW_BACKWARD);
 }
 
-/// The last row stands in for those that are missing in its pair and batch.
+/// Incomplete pairs and batches of rows are padded by repeating the last row.
 template <typename Join, typename Split>
 void RowTransform::transform(const Plan &plan, int lo, int hi, Join join, Split split) const
 {

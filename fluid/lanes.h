@@ -69,4 +69,9 @@ template <int N> struct ComplexLane {
   friend ComplexLane over_i(const ComplexLane &z) { return {z.im, -z.re}; }
 };
 
+/// Modes are solved in blocks of neighbors in the plane (kx, ky), one per lane.
+constexpr int lanes = 8;
+using Lanes = Lane<lanes>;
+using Modes = ComplexLane<lanes>;
+
 }    // namespace fluid

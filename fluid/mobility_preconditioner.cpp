@@ -12,15 +12,17 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-// Distance of the markers that another depends on, over its distance from the nearest before it;
-// how many at most; ratio of that distance from level to level.
+// A marker depends on those before it within this many times the distance to the nearest of them.
 constexpr double reach = 3;
+// It depends on this number of markers at most: memory sets the time to apply the columns.
 constexpr int most_rows = 40;
+// The distance to the nearest marker before shrinks by this ratio from level to level.
 constexpr double refinement = 0.75;
 
-// Relative to the spacing of the grid: the slip length, and the radius of the discs in which
-// markers are counted to find how much of the surface each stands for.
+// The slip length that stands for the compliance of markers, in spacings of the grid.
 constexpr double slip_length = 0.0003;
+// Markers within discs of this radius, in spacings, are counted to find how much of the surface
+// each of them stands for.
 constexpr double disc = 2;
 
 // Added to the mobility of each marker with itself, relative to it.

@@ -6,12 +6,10 @@ namespace fluid {
 
 namespace {
 
-// Columns of modes are transformed in z and solved in blocks that fit into the cache, `lanes` at a
-// time.
-constexpr int lanes = 8, groups = 4, width = groups * lanes;
-constexpr int stride =
-    width + 4;    // an odd number of cache lines: powers of two would share few sets
-using Modes = ComplexLane<lanes>;
+// Columns of modes are transformed in z and solved in blocks that fit into the cache.
+constexpr int groups = 4, width = groups * lanes;
+// An odd number of cache lines: powers of two would share few sets.
+constexpr int stride = width + 4;
 
 /// With all directions transformed, momentum and continuity are f = s u + conj(d) p and d.u = 0,
 /// where d is the symbol of the difference from faces to centres (Wavenumbers) and s that of the
@@ -91,7 +89,7 @@ class PeriodicModes : public ModeSolver {
   void project(int first, int count, int group) const
   {
     Modes dx, dy;
-    Lane<lanes> square_xy;
+    Lanes square_xy;
     for (int m = 0; m < lanes; ++m) {
       const int column = first + std::min(group * lanes + m, count - 1);
       const int i = column % modes_.extent(0), j = column / modes_.extent(0);
@@ -104,10 +102,10 @@ class PeriodicModes : public ModeSolver {
       const std::ptrdiff_t offset = std::ptrdiff_t(kz) * stride + group * lanes;
       const auto f = [&](int c) { return Modes::load(block_[c].data() + offset); };
       const Modes dz = Modes::constant(z_.kappa[kz] * z_.half_shift[kz]);
-      const Lane<lanes> square = square_xy + z_.kappa[kz] * z_.kappa[kz];
-      const Lane<lanes> symbol = shift_ + viscosity_ * square;
-      const Lane<lanes> inverse = (symbol > 0).select(normalisation / symbol, 0.0);
-      const Lane<lanes> inverse_square = (square > 0).select(1 / square, 0.0);
+      const Lanes square = square_xy + z_.kappa[kz] * z_.kappa[kz];
+      const Lanes symbol = shift_ + viscosity_ * square;
+      const Lanes inverse = (symbol > 0).select(normalisation / symbol, 0.0);
+      const Lanes inverse_square = (square > 0).select(1 / square, 0.0);
 
       const Modes fx = f(0), fy = f(1), fz = f(2);
       const Modes p = inverse_square * (dx * fx + dy * fy + dz * fz);

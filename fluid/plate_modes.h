@@ -24,14 +24,67 @@ class PlateModes : public ModeSolver {
     if (mean) mean_.solve(spectrum, shift_, forcing);
     const int columns = modes_.empty() ? 0 : modes_.extent(0) * modes_.extent(1);
     for (int first = 0; first < columns; first += lanes)
-      solve_block(spectrum, pressure, first, std::min(lanes, columns - first));
+      solve_block(Block(*this, first, std::min(lanes, columns - first)), spectrum, pressure);
     if (mean) mean_.store(spectrum, pressure);
   }
 
  protected:
-  /// Modes first, first + 1, ... of the plane.
-  virtual void solve_block(const std::array<View<Complex>, 3> &spectrum,
-                           const View<Complex> *pressure, int first, int count) = 0;
+  /// The velocity or force along the plates, in the directions along the wave vector and across it.
+  struct Tangential {
+    Modes along, across;
+  };
+
+  /// The modes first, first + 1, ... of the plane (kx, ky), in all planes k.
+  class Block {
+   public:
+    Block(const PlateModes &owner, int first, int count) :
+        waves_(owner.x_, owner.y_, owner.modes_, first, count), corner_(owner.modes_.lo),
+        first_(first), count_(count)
+    {
+    }
+
+    const Lanes &kappa() const { return waves_.kappa; }
+
+    Modes load(const View<Complex> &from, int k) const { return Modes::load(at(from, k), count_); }
+    void store(const Modes &modes, const View<Complex> &to, int k) const
+    {
+      modes.store(at(to, k), count_);
+    }
+
+    /// Components 0 and 1 of `from`, times `scale`. The part along is taken times i, which makes
+    /// the equations for it, for w and for the pressure real.
+    Tangential load_tangential(const std::array<View<Complex>, 3> &from, int k, double scale) const
+    {
+      const Modes u = waves_.ex * load(from[0], k), v = waves_.ey * load(from[1], k);
+      return {times_i(scale * (waves_.x * u + waves_.y * v)),
+              scale * (waves_.x * v - waves_.y * u)};
+    }
+
+    /// The way back, without a factor.
+    void store_tangential(const Tangential &from, const std::array<View<Complex>, 3> &to,
+                          int k) const
+    {
+      const Modes along = over_i(from.along);
+      store(conj(waves_.ex) * (waves_.x * along - waves_.y * from.across), to[0], k);
+      store(conj(waves_.ey) * (waves_.y * along + waves_.x * from.across), to[1], k);
+    }
+
+   private:
+    WaveVectors waves_;
+    Index3 corner_;
+    int first_, count_;
+
+    Complex *at(const View<Complex> &view, int k) const
+    {
+      return &view(corner_[0], corner_[1], k) + first_;
+    }
+  };
+
+  virtual void solve_block(const Block &block, const std::array<View<Complex>, 3> &spectrum,
+                           const View<Complex> *pressure) = 0;
+
+  /// Of the unnormalised transforms in x and y.
+  double scale() const { return 1.0 / (double(grid_.cells[0]) * grid_.cells[1]); }
 
   Grid grid_;
   Box modes_;

@@ -8,8 +8,6 @@ namespace {
 /// With s the shift, p the pressure of the solve before, * the velocity before the projection:
 ///   (s - viscosity lap) u* + grad p = f,   lap phi = s div u*,   u = u* - grad phi / s,
 ///   p += phi - viscosity div u*.
-/// As in WalledModes, the part of the velocity along the wave vector is taken times i, which makes
-/// all real.
 class ProjectedModes : public PlateModes {
  public:
   ProjectedModes(const Grid &grid, const Box &modes, double viscosity, double shift) :
@@ -29,28 +27,24 @@ class ProjectedModes : public PlateModes {
   }
 
  private:
-  void solve_block(const std::array<View<Complex>, 3> &spectrum, const View<Complex> *pressure,
-                   int first, int count) override
+  void solve_block(const Block &block, const std::array<View<Complex>, 3> &spectrum,
+                   const View<Complex> *pressure) override
   {
     const int n = grid_.cells[2];
     const ImageFactors images = grid_.plate_conditions.factors();
     const double h = grid_.spacing[2], b = viscosity_ / (h * h);
-    const double scale = 1.0 / (double(grid_.cells[0]) * grid_.cells[1]);
-    const auto [kappa, along_x, along_y, ex, ey] = WaveVectors(x_, y_, modes_, first, count);
+    const double scale = this->scale();
+    const Lanes &kappa = block.kappa();
     const Lanes a = shift_ + viscosity_ * kappa * kappa;
     const View<Complex> &kept = *pressure;
-    const auto at = [&](const View<Complex> &view, int k) {
-      return &view(modes_.lo[0], modes_.lo[1], k) + first;
-    };
 
     for (int k = 0; k < n; ++k) {
-      pressure_.set(k, Modes::load(at(kept, k), count));
-      const Modes u = ex * Modes::load(at(spectrum[0], k), count);
-      const Modes v = ey * Modes::load(at(spectrum[1], k), count);
-      across_.set(k, scale * (along_x * v - along_y * u));
-      along_.set(k, times_i(scale * (along_x * u + along_y * v)) + kappa * pressure_[k]);
+      pressure_.set(k, block.load(kept, k));
+      const Tangential force = block.load_tangential(spectrum, k, scale);
+      across_.set(k, force.across);
+      along_.set(k, force.along + kappa * pressure_[k]);
       if (k == 0) continue;
-      const Modes w = Modes::load(at(spectrum[2], k), count);
+      const Modes w = block.load(spectrum[2], k);
       vertical_.set(k - 1, scale * w - (1 / h) * (pressure_[k] - pressure_[k - 1]));
     }
     across_.factor(a, b, images);
@@ -73,13 +67,11 @@ class ProjectedModes : public PlateModes {
     const Lanes slope = kappa / shift_;
     const double step = 1 / (h * shift_);
     for (int k = 0; k < n; ++k) {
-      (pressure_[k] + potential_[k]).store(at(kept, k), count);
-      const Modes along = over_i(along_[k] + slope * potential_[k]), across = across_[k];
-      (conj(ex) * (along_x * along - along_y * across)).store(at(spectrum[0], k), count);
-      (conj(ey) * (along_y * along + along_x * across)).store(at(spectrum[1], k), count);
+      block.store(pressure_[k] + potential_[k], kept, k);
+      block.store_tangential({along_[k] + slope * potential_[k], across_[k]}, spectrum, k);
       Modes w = Modes::constant(0);
       if (k > 0) w = vertical_[k - 1] - step * (potential_[k] - potential_[k - 1]);
-      w.store(at(spectrum[2], k), count);
+      block.store(w, spectrum[2], k);
     }
   }
 

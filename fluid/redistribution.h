@@ -11,14 +11,7 @@ Exchange<T> exchange_between(MPI_Comm comm, const std::vector<Box> &from,
 {
   int me;
   MPI_Comm_rank(comm, &me);
-  std::vector<Transfer> sends, receives;
-  for (int r = 0; r < static_cast<int>(from.size()); ++r) {
-    const Box both_out = intersection(from[me], to[r]);
-    const Box both_in = intersection(from[r], to[me]);
-    if (!both_out.empty()) sends.push_back({r, both_out});
-    if (!both_in.empty()) receives.push_back({r, both_in});
-  }
-  return {comm, sends, receives};
+  return {comm, overlaps(from[me], to), overlaps(to[me], from)};
 }
 
 /// Moves a distributed array from one set of bricks (rank r owns from[r]) to another (to[r]).

@@ -8,7 +8,8 @@ namespace fluid {
 
 /// Markers of rigid no-slip surfaces that move as prescribed, whatever the flow. The forces lambda
 /// that they exert on the fluid obey
-///   A lambda = U - u,   A = J S J^T the mobility of the markers, u the flow of all other forces at the markers.
+///   A lambda = U - u,
+/// where A = J S J^T is the mobility of the markers and u the flow of all other forces there.
 /// Forces extrapolated from the last evaluations are part of the flow from the start (spread). From
 /// there on each iteration costs one solve (enforce). It adds the best combination of the
 /// directions known, kept from earlier iterations and evaluations with their responses, and a new

@@ -59,9 +59,7 @@ Transposition::Transposition(MPI_Comm comm, const std::vector<Box> &from,
 
   Complex *free = storage_.data(), *self = nullptr;
   std::ptrdiff_t self_stride = 0;
-  for (int r = 0; r < static_cast<int>(to.size()); ++r) {
-    const Box box = intersection(from[r], to[rank_]);
-    if (box.empty()) continue;
+  for (const auto &[r, box] : overlaps(to[rank_], from)) {
     Complex *data = whole ? &(*whole)[0](box.lo[0], box.lo[1], box.lo[2]) : free;
     const std::ptrdiff_t stride = whole ? whole->box().size() : box.size();
     if (!whole) free += max_components * box.size();
@@ -71,9 +69,7 @@ Transposition::Transposition(MPI_Comm comm, const std::vector<Box> &from,
       self_stride = stride;
     }
   }
-  for (int r = 0; r < static_cast<int>(to.size()); ++r) {
-    const Box box = intersection(from[rank_], to[r]);
-    if (box.empty()) continue;
+  for (const auto &[r, box] : overlaps(from[rank_], to)) {
     if (r == rank_) {
       from_.add(r, box, self, self_stride);
     } else {

@@ -20,33 +20,28 @@ class WalledModes : public PlateModes {
   }
 
  private:
-  void solve_block(const std::array<View<Complex>, 3> &spectrum, const View<Complex> *pressure,
-                   int first, int count) override
+  void solve_block(const Block &block, const std::array<View<Complex>, 3> &spectrum,
+                   const View<Complex> *pressure) override
   {
     const int n = grid_.cells[2];
     const ImageFactors images = grid_.plate_conditions.factors();
     const double h = grid_.spacing[2], b = viscosity_ / (h * h);
-    const double scale = 1.0 / (double(grid_.cells[0]) * grid_.cells[1]);
+    const double scale = this->scale();
 
-    const auto [kappa, along_x, along_y, ex, ey] = WaveVectors(x_, y_, modes_, first, count);
+    const Lanes &kappa = block.kappa();
     const Lanes a = shift_ + viscosity_ * kappa * kappa, q = kappa * kappa * h * h;
     const Lanes scale_w = q * scale, kappa_h = kappa * h, inverse_kappa_h = 1 / kappa_h;
-    const auto at = [&](const View<Complex> &view, int k) {
-      return &view(modes_.lo[0], modes_.lo[1], k) + first;
-    };
 
-    // The part along the wave vector is taken times i, which makes the system for w real.
     across_.begin(a, b, images);
     vertical_.begin(a, q, b, images);
     for (int k = 0; k < n; ++k) {
-      const Modes u = ex * Modes::load(at(spectrum[0], k), count);
-      const Modes v = ey * Modes::load(at(spectrum[1], k), count);
-      along_.set(k, times_i(scale * (along_x * u + along_y * v)));
-      across_.set(k, scale * (along_x * v - along_y * u));
+      const Tangential force = block.load_tangential(spectrum, k, scale);
+      along_.set(k, force.along);
+      across_.set(k, force.across);
       across_.factor_row(k);
       across_.eliminate(k);
       if (k == 0) continue;
-      const Modes w = Modes::load(at(spectrum[2], k), count);
+      const Modes w = block.load(spectrum[2], k);
       vertical_.set(k, scale_w * w + kappa_h * (along_[k] - along_[k - 1]));
       vertical_.factor_row(k);
       vertical_.eliminate(k);
@@ -58,10 +53,8 @@ class WalledModes : public PlateModes {
     for (int k = n - 1; k >= 0; --k) {
       across_.substitute(k);
       if (k > 0) vertical_.substitute(k);
-      const Modes along = over_i(continuity(k)), across = across_[k];
-      (conj(ex) * (along_x * along - along_y * across)).store(at(spectrum[0], k), count);
-      (conj(ey) * (along_y * along + along_x * across)).store(at(spectrum[1], k), count);
-      vertical_[k].store(at(spectrum[2], k), count);
+      block.store_tangential({continuity(k), across_[k]}, spectrum, k);
+      block.store(vertical_[k], spectrum[2], k);
     }
     if (!pressure) return;
 
@@ -71,7 +64,7 @@ class WalledModes : public PlateModes {
       const Modes below = k > 0 ? continuity(k - 1) : images.lower * here;
       const Modes above = k < n - 1 ? continuity(k + 1) : images.upper * here;
       const Modes applied = (a + 2 * b) * here - b * (below + above);
-      (inverse_kappa * (applied - along_[k])).store(at(*pressure, k), count);
+      block.store(inverse_kappa * (applied - along_[k]), *pressure, k);
     }
   }
 

@@ -6,11 +6,6 @@
 
 namespace fluid {
 
-// Modes between plates are solved in blocks of neighbours in the plane (kx, ky), one per lane.
-constexpr int lanes = 8;
-using Lanes = Lane<lanes>;
-using Modes = ComplexLane<lanes>;
-
 /// Wave vectors in x and y of the modes first, first + 1, ... of a plane: magnitude, direction, and
 /// the factors from faces to centres. The mean mode counts as one of magnitude 1 along x, without
 /// meaning.
