@@ -124,7 +124,8 @@ int RigidSurface::spread(Flow &flow, double time, const Real3 &others)
     Eigen::Vector3d missing = -rows(force_).rowwise().sum();
     for (int d = 0; d < 3; ++d) missing[d] -= others[d];
     reduce(missing.data(), 3, MPI_SUM, flow);
-    force_ += uniform_ * (drag_ * missing);
+    const Eigen::Vector3d velocity = drag_ * missing;
+    force_.noalias() += uniform_ * velocity;
   }
   return flow.spread(markers_, force_.data(), 1.0);
 }
@@ -226,7 +227,8 @@ void RigidSurface::precondition(const Flow &flow, const Vector &velocity, Vector
   if (!settings_.free_mean) return;
   Eigen::Vector3d sum = rows(force).rowwise().sum();
   reduce(sum.data(), 3, MPI_SUM, flow);
-  force.noalias() -= uniform_ * (drag_ * sum);
+  const Eigen::Vector3d uniform_velocity = drag_ * sum;
+  force.noalias() -= uniform_ * uniform_velocity;
 }
 
 /// Takes the place of the direction that was of least use when there are too many.

@@ -34,8 +34,8 @@ double Gmres::solve(const Operator &apply, const Motion &motion, const Numbers &
   }
   iterations_ = k;
 
-  const Eigen::VectorXd weights =
-      hessenberg_.topLeftCorner(k, k).triangularView<Eigen::Upper>().solve(rotated_.head(k));
+  auto weights = rotated_.head(k);
+  hessenberg_.topLeftCorner(k, k).triangularView<Eigen::Upper>().solveInPlace(weights);
   for (int j = 0; j < k; ++j)
     for (std::size_t i = 0; i < n; ++i) y[i] += weights[j] * basis_[j][i];
   return residual;
