@@ -154,7 +154,7 @@ void FixRBCFluid::advance_alone()
 void FixRBCFluid::reset_grid()
 {
   grid_output.free();
-  flow->rebuild();
+  flow->build();
 }
 
 /* ----------------------------------------------------------------------

@@ -65,7 +65,8 @@ int FixRBCWall::setmask()
 
 void FixRBCWall::init()
 {
-  if (!dynamic_cast<FixRBCFluid *>(modify->get_fix_by_id(fluid)))
+  fluid_fix = dynamic_cast<FixRBCFluid *>(modify->get_fix_by_id(fluid));
+  if (!fluid_fix)
     error->all(FLERR, "{}: there is no fix rbc/fluid with ID {}", wall.style(), fluid);
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix rbc/wall cannot be used with run_style respa");
@@ -88,13 +89,22 @@ void FixRBCWall::post_neighbor()
 }
 
 /* ----------------------------------------------------------------------
+   of the fluid, of which this is one; null before a run has begun
+------------------------------------------------------------------------- */
+
+const RigidWalls *FixRBCWall::all_walls() const
+{
+  return fluid_fix ? fluid_fix->driven_flow().walls() : nullptr;
+}
+
+/* ----------------------------------------------------------------------
    1-3 force and 4-6 torque on the wall; of all walls: 7 worst slip relative to the largest speed,
    8 solves of the last evaluation, 9 solves per evaluation in this run
 ------------------------------------------------------------------------- */
 
 double FixRBCWall::compute_vector(int n)
 {
-  const RigidWalls *const walls = wall.walls();
+  const RigidWalls *const walls = all_walls();
   if (!walls) return 0;
   if (n == 6) return walls->slip();
   if (n == 7) return walls->last_solves();
@@ -109,8 +119,8 @@ double FixRBCWall::compute_vector(int n)
 double FixRBCWall::memory_usage()
 {
   double bytes = static_cast<double>(atom->nmax) * WallGroup::NUMBERS * sizeof(double);
-  if (wall.walls() && wall.walls()->first() == &wall)
-    bytes += static_cast<double>(wall.walls()->bytes());
+  if (all_walls() && all_walls()->first() == &wall)
+    bytes += static_cast<double>(all_walls()->bytes());
   return bytes;
 }
 

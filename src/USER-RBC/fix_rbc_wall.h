@@ -39,10 +39,12 @@ class FixRBCWall : public Fix, public FluidClient {
  private:
   std::string fluid;
   WallGroup wall;
+  class FixRBCFluid *fluid_fix = nullptr;
   bigint measured = -1;    // evaluation of the fluid
   std::array<double, 6> total{};
 
   WallGroup::Settings parse(int, char **);
+  const class RigidWalls *all_walls() const;
 };
 
 }    // namespace LAMMPS_NS

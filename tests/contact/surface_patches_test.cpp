@@ -30,8 +30,8 @@ TEST(SurfacePatches, HoldWhatIsNearAlongEdges)
   const Eigen::MatrixXd path = paths(sphere);
   for (double distance : {0.3, 0.7, 1.5, 10.0}) {
     const auto patches = rbc::surface_patches(sphere, distance);
-    ASSERT_EQ(static_cast<int>(patches.size()), sphere.size());
-    for (int v = 0; v < sphere.size(); ++v) {
+    ASSERT_EQ(static_cast<int>(patches.size()), sphere.vertex_count());
+    for (int v = 0; v < sphere.vertex_count(); ++v) {
       std::vector<int> expected;
       for (std::size_t t = 0; t < sphere.triangles.size(); ++t) {
         const auto &[a, b, c] = sphere.triangles[t];
@@ -48,7 +48,7 @@ TEST(SurfacePatches, OfNoExtentIsTheFan)
   const test::Mesh mesh = test::icosphere(2);
   const rbc::SurfaceTemplate sphere(mesh.vertices, mesh.triangles);
   const auto patches = rbc::surface_patches(sphere, 0);
-  for (int v = 0; v < sphere.size(); ++v) {
+  for (int v = 0; v < sphere.vertex_count(); ++v) {
     auto incident_corners = sphere.incident_triangles[v];
     std::sort(incident_corners.begin(), incident_corners.end());
     EXPECT_EQ(patches[v], incident_corners);

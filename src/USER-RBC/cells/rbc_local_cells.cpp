@@ -60,11 +60,11 @@ void LocalCells::identify()
   for (tagint m = 1; m <= largest; ++m) {
     if (count[m] == 0) continue;
     const tagint first = extremes[2 * m], last = -extremes[2 * m + 1];
-    if (count[m] != shape.size())
+    if (count[m] != shape.vertex_count())
       error->all(FLERR,
                  "{}: the cell with molecule ID {} has {} atoms in the group, its template {}",
-                 style, m, count[m], shape.size());
-    if (last - first + 1 != shape.size())
+                 style, m, count[m], shape.vertex_count());
+    if (last - first + 1 != shape.vertex_count())
       error->all(FLERR,
                  "{}: the atom IDs of the cell with molecule ID {} are not consecutive ({} to {})",
                  style, m, first, last);
@@ -87,7 +87,7 @@ Vec3 LocalCells::image_shift(int i) const
 
 void LocalCells::update_ownership(bool bending)
 {
-  const int size = shape.size();
+  const int size = shape.vertex_count();
   std::vector<int> slot(molecule_ids.size(), -1);
   std::vector<int> owned_count;
   CollectiveStop stop(lmp);
@@ -154,12 +154,12 @@ void LocalCells::check_complete(const std::vector<int> &owned_count) const
   bigint owned = 0, all;
   for (int count : owned_count) owned += count;
   MPI_Allreduce(&owned, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (all == static_cast<bigint>(molecule_ids.size()) * shape.size()) return;
+  if (all == static_cast<bigint>(molecule_ids.size()) * shape.vertex_count()) return;
 
   std::vector<double> sums(4 * molecule_ids.size());    // vertices left and their positions
   for (std::size_t c = 0; c < local.size(); ++c)
-    for (int v = 0; v < shape.size(); ++v) {
-      const int i = atoms[c * shape.size() + v];
+    for (int v = 0; v < shape.vertex_count(); ++v) {
+      const int i = atoms[c * shape.vertex_count() + v];
       if (i < 0) continue;
       double *const s = &sums[4 * std::size_t(local[c].index)];
       double unwrapped[3];
@@ -171,12 +171,12 @@ void LocalCells::check_complete(const std::vector<int> &owned_count) const
                 world);
   for (std::size_t n = 0; n < molecule_ids.size(); ++n) {
     const double *const s = &sums[4 * n];
-    if (s[0] == shape.size()) continue;
+    if (s[0] == shape.vertex_count()) continue;
     error->all(FLERR,
                "{}: lost {:.0f} of {} vertices, which left the simulation box, at step {}: cell "
                "with molecule ID {} "
                "near ({:.6g}, {:.6g}, {:.6g})",
-               style, shape.size() - s[0], shape.size(), update->ntimestep, molecule_ids[n],
+               style, shape.vertex_count() - s[0], shape.vertex_count(), update->ntimestep, molecule_ids[n],
                s[1] / s[0], s[2] / s[0], s[3] / s[0]);
   }
 }
@@ -207,7 +207,7 @@ void LocalCells::find_neighbours(std::size_t at, tagint first, const std::vector
                                  int rings)
 {
   std::vector<int> front;
-  for (int v = 0; v < shape.size(); ++v)
+  for (int v = 0; v < shape.vertex_count(); ++v)
     if (owned[v]) front.push_back(v);
   for (int ring = 0; ring < rings; ++ring) {
     std::vector<int> next;
@@ -234,7 +234,7 @@ void LocalCells::check_neighbours(std::size_t c, int rings, CollectiveStop &stop
 {
   const int *const known = local[c].atom;
   int owned = -1;
-  for (int v = 0; v < shape.size() && owned < 0; ++v)
+  for (int v = 0; v < shape.vertex_count() && owned < 0; ++v)
     if (local[c].elements->owned[v]) owned = known[v];
   const double *const near = atom->x[owned];
   for (int t : local[c].elements->triangles)
@@ -271,7 +271,7 @@ void LocalCells::find_shared(const std::vector<char> &is_part)
 
 void LocalCells::set_origins()
 {
-  const int size = shape.size();
+  const int size = shape.vertex_count();
   std::vector<double> sums(3 * local.size());
   for (std::size_t c = 0; c < local.size(); ++c)
     for (int v = 0; v < size; ++v) {
@@ -289,7 +289,7 @@ void LocalCells::set_origins()
 void LocalCells::gather(const Cell &cell, std::vector<Vec3> &x) const
 {
   const double *const *const position = atom->x;
-  const int size = shape.size();
+  const int size = shape.vertex_count();
   for (int v = 0; v < size; ++v)
     if (cell.atom[v] >= 0) x[v] = Vec3(position[cell.atom[v]]) + cell.offset[v];
 }

@@ -97,13 +97,6 @@ void DrivenFlow::build()
   changed();
 }
 
-void DrivenFlow::rebuild()
-{
-  build();
-}
-
-/* ---------------------------------------------------------------------- */
-
 void DrivenFlow::start_run(const std::vector<FluidClient *> &clients, const std::string &fluid_id)
 {
   forcing_.check();

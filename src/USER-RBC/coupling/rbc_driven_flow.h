@@ -38,8 +38,9 @@ class DrivenFlow : public StepPart, protected Pointers {
   /// Collective, at the start of a run: takes in the clients' demands and walls.
   void start_run(const std::vector<FluidClient *> &clients, const std::string &fluid_id);
 
-  /// Collective: LAMMPS's subdomains are others.
-  void rebuild();
+  /// Collective: makes the flow anew on LAMMPS's subdomains, where they are others, and goes on
+  /// with what it was.
+  void build();
 
   /// A client advances the flow.
   bool is_driven() const { return driven_; }
@@ -64,7 +65,7 @@ class DrivenFlow : public StepPart, protected Pointers {
   /// Forcing and walls at a fraction of the step that has begun.
   void set_time(double fraction);
 
-  /// Walls at the end of the step.
+  /// Walls alone at a fraction of the step.
   void place_walls(double fraction);
 
   /// The mean velocity inside a vessel is held. correct_flow_rate() adjusts the forcing by what the
@@ -161,7 +162,6 @@ class DrivenFlow : public StepPart, protected Pointers {
   rbc::Stopwatch spreading_, exchanging_, solving_, interpolating_;
 
   int layers_needed() const;
-  void build();
   void take_demands(const std::vector<FluidClient *> &clients, const std::string &fluid_id);
   void connect_walls(const std::vector<WallGroup *> &groups);
   void warn_of_idle_forcing() const;

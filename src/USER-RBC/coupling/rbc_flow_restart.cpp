@@ -75,11 +75,12 @@ bigint FlowRestart::restore(const char *buffer, fluid::Flow &flow) const
   const auto found = reinterpret_cast<const double *>(buffer);
   const std::vector<double> expected = head(flow);
   if (!std::equal(expected.begin(), expected.end(), found))
-    error->all(FLERR,
-               "{}: the restart file holds this flow on a grid of {} {} {} cells, or in another "
-               "box, or with other plates or another inertia or scheme; define the fix as it was, or "
-               "use another fix ID to start from rest",
-               style_, found[0], found[1], found[2]);
+    error->all(
+        FLERR,
+        "{}: the restart file holds this flow on a grid of {} {} {} cells, or in another "
+        "box, or with other plates or another inertia or scheme; define the fix as it was, or "
+        "use another fix ID to start from rest",
+        style_, found[0], found[1], found[2]);
   flow.restore(found + expected.size() + 1);
   return static_cast<bigint>(found[expected.size()]);
 }

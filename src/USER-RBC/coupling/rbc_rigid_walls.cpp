@@ -18,7 +18,7 @@ void RigidWalls::connect(const std::vector<WallGroup *> &walls, bool free_mean)
   for (WallGroup *wall : walls_) {
     check_settings(*wall);
     check_atoms(*wall);
-    wall->join(this);
+    wall->atoms_migrated();
   }
   fluid::RigidSurface::Settings settings = surface_.settings();
   if (settings.free_mean != free_mean) known_ = false;
@@ -26,7 +26,6 @@ void RigidWalls::connect(const std::vector<WallGroup *> &walls, bool free_mean)
   settings.max_solves = first()->settings().max_solves;
   settings.free_mean = free_mean;
   surface_.choose(settings);
-  migrated_ = true;
 }
 
 bool RigidWalls::has_atom(const WallGroup &wall, int i) const
@@ -91,13 +90,17 @@ void RigidWalls::find_markers(const fluid::Flow &flow)
 
 RigidWalls::Change RigidWalls::find_change()
 {
-  Change change = known_ ? (moved_ ? Change::places : Change::none) : Change::atoms;
-  const bool check_places = migrated_;
-  if (migrated_) {
+  bool migrated = false, moved = false;
+  for (WallGroup *wall : walls_) {
+    migrated = wall->take_migrated() || migrated;
+    moved = wall->take_moved() || moved;
+  }
+  Change change = known_ ? (moved ? Change::places : Change::none) : Change::atoms;
+  if (migrated) {
     collect_markers();
     if (!take_tags()) change = Change::atoms;
   }
-  if (change == Change::atoms || check_places || moved_) {
+  if (change == Change::atoms || migrated || moved) {
     position_.resize(3 * markers_.size());
     for (std::size_t n = 0; n < markers_.size(); ++n)
       for (int d = 0; d < 3; ++d) {
@@ -106,12 +109,11 @@ RigidWalls::Change RigidWalls::find_change()
         position_[3 * n + d] = x;
       }
   }
-  if (check_places && comm->nprocs > 1) {
+  if (migrated && comm->nprocs > 1) {
     int code = static_cast<int>(change);
     MPI_Allreduce(MPI_IN_PLACE, &code, 1, MPI_INT, MPI_MAX, world);
     change = static_cast<Change>(code);
   }
-  migrated_ = moved_ = false;
   return change;
 }
 

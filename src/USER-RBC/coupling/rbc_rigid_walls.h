@@ -18,9 +18,6 @@ class RigidWalls : public StepPart, protected Pointers {
   /// forces.
   void connect(const std::vector<WallGroup *> &walls, bool free_mean);
 
-  void atoms_migrated() { migrated_ = true; }
-  void walls_moved() { moved_ = true; }
-
   bool moves() const;
   void begin_step(bool again);
   void place(double fraction);
@@ -61,7 +58,7 @@ class RigidWalls : public StepPart, protected Pointers {
   fluid::RigidSurface surface_;
   fluid::RigidSurface::Outcome outcome_;
   rbc::Stopwatch stopwatch_;
-  bool migrated_ = true, moved_ = true, known_ = false;
+  bool known_ = false;    ///< what the surface keeps belongs to these atoms
 
   struct Marker {
     tagint tag;

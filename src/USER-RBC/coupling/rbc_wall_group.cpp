@@ -1,7 +1,6 @@
 #include "coupling/rbc_wall_group.h"
 
 #include "atom.h"
-#include "coupling/rbc_rigid_walls.h"
 #include "domain.h"
 #include "error.h"
 #include "memory.h"
@@ -42,11 +41,6 @@ void WallGroup::start_run()
   evaluate();
   velocity_ = velocity_end_;
   displaced_ = {};
-}
-
-void WallGroup::atoms_migrated()
-{
-  if (walls_) walls_->atoms_migrated();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -105,7 +99,7 @@ void WallGroup::place(double fraction)
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & groupbit_)
       for (int d = 0; d < 3; ++d) atom->x[i][d] += by[d];
-  walls_->walls_moved();
+  moved_ = true;
 }
 
 /* ---------------------------------------------------------------------- */

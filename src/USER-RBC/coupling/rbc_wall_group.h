@@ -7,10 +7,9 @@
 
 #include <array>
 #include <string>
+#include <utility>
 
 namespace LAMMPS_NS {
-
-class RigidWalls;
 
 /// The atoms of a fix rbc/wall, which move as one with a prescribed velocity, and the forces on
 /// them.
@@ -30,15 +29,15 @@ class WallGroup : protected Pointers {
   const Settings &settings() const { return settings_; }
   int groupbit() const { return groupbit_; }
 
-  /// All walls of the fluid that this one belongs to, null before a run has begun.
-  const RigidWalls *walls() const { return walls_; }
-  void join(RigidWalls *walls) { walls_ = walls; }
-
   /// At the start of a run, collective where the velocity is a variable.
   void check_variables() const;
   void start_run();
 
-  void atoms_migrated();
+  void atoms_migrated() { migrated_ = true; }
+
+  /// Whether atoms migrated, or the atoms moved, since the last time that this was asked.
+  bool take_migrated() { return std::exchange(migrated_, false); }
+  bool take_moved() { return std::exchange(moved_, false); }
 
   bool moves() const;
   const std::array<double, 3> &velocity() const { return velocity_; }
@@ -64,7 +63,7 @@ class WallGroup : protected Pointers {
   std::string style_;
   int groupbit_;
   Settings settings_;
-  RigidWalls *walls_ = nullptr;
+  bool migrated_ = true, moved_ = true;
   double **forces_ = nullptr;
 
   std::array<double, 3> velocity_start_{}, velocity_end_{}, velocity_{}, displaced_{};

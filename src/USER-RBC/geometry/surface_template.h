@@ -39,7 +39,6 @@ class SurfaceTemplate {
   SurfaceTemplate(std::vector<Vec3> vertices, std::vector<Corners> triangles);
 
   int vertex_count() const { return static_cast<int>(vertices.size()); }
-  int size() const { return vertex_count(); }    ///< former name, for callers not changed yet
 
   /// Takes the stress-free triangles of another surface. Throws std::invalid_argument, saying
   /// which triangle differs, unless it joins the same vertices.

@@ -31,7 +31,6 @@ struct AreaVolume {
   double area = 0, volume = 0;
 };
 
-using CellSize = AreaVolume;    ///< former name, for callers not changed yet
 
 struct MembraneEnergy {
   double sheet = 0, bending = 0, area = 0, volume = 0;
