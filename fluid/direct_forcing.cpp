@@ -33,84 +33,98 @@ double fastest(const Flow &flow, const MarkerSet &markers, const double *target)
 
 }    // namespace
 
-DirectForcing::Outcome DirectForcing::advance(Flow &flow, double dt, const Forcing &forcing,
-                                              const Problem &problem)
+bool DirectForcing::solve_for_guess(Flow &flow, double dt, const Forcing &forcing,
+                                    const Problem &problem, int &outside)
 {
   const MarkerSet &markers = problem.markers;
-  const bool massive = problem.resistance != nullptr;
-  const auto weight = [&](int row) { return massive ? problem.resistance[row] : 1.0; };
-  double *const inertial = problem.inertial, *const velocity = problem.velocity;
-  for (auto *vector : {&total_, &residual_, &direction_, &scaled_, &response_})
-    vector->resize(3 * std::size_t(problem.rows));
-
-  Outcome outcome;
-  for_each_number(markers,
-                  [&](int, std::size_t i) { total_[i] = problem.applied[i] + inertial[i]; });
+  for_each_number(
+      markers, [&](int, std::size_t i) { total_[i] = problem.applied[i] + problem.inertial[i]; });
   flow.clear_force();
-  outcome.outside = flow.spread(markers, total_.data(), 1.0);
-  std::array<double, 1> lost{outcome.outside >= 0 ? 1.0 : 0.0};
+  outside = flow.spread(markers, total_.data(), 1.0);
+  std::array<double, 1> lost{outside >= 0 ? 1.0 : 0.0};
   sum_over_ranks(lost, flow);
-  if (lost[0] > 0) return outcome;
+  if (lost[0] > 0) return false;
   flow.accumulate_ghosts();
   if (flow.equations().inertia == Inertia::none)
     flow.solve(forcing);
   else
     flow.start_step(dt, forcing);
   flow.fill_ghosts();
-  flow.interpolate(markers, velocity);
+  flow.interpolate(markers, problem.velocity);
+  return true;
+}
 
+DirectForcing::Sums DirectForcing::sums(const Flow &flow, const Problem &problem) const
+{
+  std::array<double, 5> sums{};
+  for_each_number(problem.markers, [&](int row, std::size_t i) {
+    const double square = residual_[i] * residual_[i];
+    const double force = problem.applied[i] + problem.inertial[i];
+    sums[0] += square;
+    sums[1] += square * problem.weight(row);
+    sums[2] += square / problem.weight(row);
+    sums[3] += force * force;
+    sums[4] += 1;
+  });
+  sum_over_ranks(sums, flow);
+  return {sums[0], sums[1], sums[2], sums[3], sums[4]};
+}
+
+void DirectForcing::conjugate_gradient_step(Flow &flow, const Problem &problem, double square)
+{
+  const MarkerSet &markers = problem.markers;
+  const bool massive = problem.massive();
   for_each_number(markers, [&](int row, std::size_t i) {
-    const double root = std::sqrt(weight(row));
-    residual_[i] = root * (problem.target[i] - velocity[i]);
-    if (massive) residual_[i] -= inertial[i] / root;
+    scaled_[i] = std::sqrt(problem.weight(row)) * direction_[i];
+  });
+  flow.apply_mobility(markers, scaled_.data(), response_.data());
+  std::array<double, 1> curvature{};
+  for_each_number(markers, [&](int, std::size_t i) {
+    curvature[0] += scaled_[i] * response_[i];
+    if (massive) curvature[0] += direction_[i] * direction_[i];
+  });
+  sum_over_ranks(curvature, flow);
+  const double step = square / curvature[0];
+  flow.add_mobility_flow(step);
+  for_each_number(markers, [&](int row, std::size_t i) {
+    problem.inertial[i] += step * scaled_[i];
+    problem.velocity[i] += step * response_[i];
+    residual_[i] -= step * std::sqrt(problem.weight(row)) * response_[i];
+    if (massive) residual_[i] -= step * direction_[i];
+  });
+}
+
+DirectForcing::Outcome DirectForcing::advance(Flow &flow, double dt, const Forcing &forcing,
+                                              const Problem &problem)
+{
+  const MarkerSet &markers = problem.markers;
+  const bool massive = problem.massive();
+  for (auto *vector : {&total_, &residual_, &direction_, &scaled_, &response_})
+    vector->resize(3 * std::size_t(problem.rows));
+
+  Outcome outcome;
+  if (!solve_for_guess(flow, dt, forcing, problem, outcome.outside)) return outcome;
+  for_each_number(markers, [&](int row, std::size_t i) {
+    const double root = std::sqrt(problem.weight(row));
+    residual_[i] = root * (problem.target[i] - problem.velocity[i]);
+    if (massive) residual_[i] -= problem.inertial[i] / root;
     direction_[i] = residual_[i];
   });
 
-  // sums over all markers: residual squared, as a force, as a velocity; force squared; numbers
-  const auto norms = [&] {
-    std::array<double, 5> sums{};
-    for_each_number(markers, [&](int row, std::size_t i) {
-      const double square = residual_[i] * residual_[i], force = problem.applied[i] + inertial[i];
-      sums[0] += square;
-      sums[1] += square * weight(row);
-      sums[2] += square / weight(row);
-      sums[3] += force * force;
-      sums[4] += 1;
-    });
-    sum_over_ranks(sums, flow);
-    return sums;
-  };
   const double speed = fastest(flow, markers, problem.target);
-  auto sums = norms();
+  Sums now = sums(flow, problem);
   const auto error = [&] {
-    const double of_force = sums[1] == 0 ? 0 : std::sqrt(sums[1] / sums[3]);
-    const double of_velocity = sums[2] == 0 ? 0 : std::sqrt(sums[2] / sums[4]) / speed;
+    const double of_force = now.as_force == 0 ? 0 : std::sqrt(now.as_force / now.force);
+    const double of_velocity =
+        now.as_velocity == 0 ? 0 : std::sqrt(now.as_velocity / now.numbers) / speed;
     return massive ? std::min(of_force, of_velocity) : of_velocity;
   };
-
   while ((outcome.error = error()) > tolerance && outcome.solves < max_solves) {
-    for_each_number(markers, [&](int row, std::size_t i) {
-      scaled_[i] = std::sqrt(weight(row)) * direction_[i];
-    });
-    flow.apply_mobility(markers, scaled_.data(), response_.data());
+    conjugate_gradient_step(flow, problem, now.residual);
     ++outcome.solves;
-    std::array<double, 1> curvature{};
-    for_each_number(markers, [&](int, std::size_t i) {
-      curvature[0] += scaled_[i] * response_[i];
-      if (massive) curvature[0] += direction_[i] * direction_[i];
-    });
-    sum_over_ranks(curvature, flow);
-    const double step = sums[0] / curvature[0];
-    flow.add_mobility_flow(step);
-    for_each_number(markers, [&](int row, std::size_t i) {
-      inertial[i] += step * scaled_[i];
-      velocity[i] += step * response_[i];
-      residual_[i] -= step * std::sqrt(weight(row)) * response_[i];
-      if (massive) residual_[i] -= step * direction_[i];
-    });
-    const double before = sums[0];
-    sums = norms();
-    const double turn = sums[0] / before;
+    const double before = now.residual;
+    now = sums(flow, problem);
+    const double turn = now.residual / before;
     for_each_number(
         markers, [&](int, std::size_t i) { direction_[i] = residual_[i] + turn * direction_[i]; });
   }

@@ -30,6 +30,9 @@ class DirectForcing {
     double *inertial;    ///< a guess that becomes the inertial force
     double *velocity;    ///< becomes U
     int rows;
+
+    bool massive() const { return resistance != nullptr; }
+    double weight(int row) const { return massive() ? resistance[row] : 1.0; }
   };
 
   struct Outcome {
@@ -46,7 +49,21 @@ class DirectForcing {
   std::size_t bytes() const { return 5 * total_.capacity() * sizeof(double); }
 
  private:
+  /// Squares, summed over all markers.
+  struct Sums {
+    double residual, as_force, as_velocity;    ///< the residual z, as a force, as a velocity
+    double force;
+    double numbers;    ///< how many numbers were summed
+  };
+
   std::vector<double> total_, residual_, direction_, scaled_, response_;
+
+  /// Returns whether the kernels of all markers stay within the ghost layers; else `outside` is one
+  /// of this rank's that does not, or -1.
+  bool solve_for_guess(Flow &flow, double dt, const Forcing &forcing, const Problem &problem,
+                       int &outside);
+  Sums sums(const Flow &flow, const Problem &problem) const;
+  void conjugate_gradient_step(Flow &flow, const Problem &problem, double square);
 };
 
 }    // namespace fluid

@@ -1,10 +1,13 @@
 #include "fluid/mobility_preconditioner.h"
 
+#include "fluid/marker_cloud.h"
+
 #include <Eigen/Cholesky>
 
 #include <cmath>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace fluid {
 
@@ -51,87 +54,47 @@ struct BlobPair {
   }
 };
 
-/// All markers, where distances are those of the nearest images.
-struct Cloud {
-  std::vector<Real3> position;
-  std::vector<int> body;
-  Real3 origin, period;
-  bool periodic[3];
-
-  Real3 apart(int from, int to) const
-  {
-    Real3 r;
-    for (int d = 0; d < 3; ++d) {
-      r[d] = position[to][d] - position[from][d];
-      if (periodic[d]) r[d] -= period[d] * std::round(r[d] / period[d]);
-    }
-    return r;
+/// Takes out of `waiting` the markers of the next level: those that are no nearer than the spacing
+/// to each other and to the markers of earlier levels.
+std::vector<int> take_level(const MarkerCloud &cloud, double spacing,
+                            const std::vector<int> &before, std::vector<int> &waiting)
+{
+  MarkerBins sparse(cloud, spacing);
+  for (int marker : before) sparse.add(marker);
+  std::vector<int> level;
+  auto left = waiting.begin();
+  for (int marker : waiting) {
+    const bool free = sparse.near(marker, [&](int other) {
+      return cloud.body[other] != cloud.body[marker] ||
+             cloud.distance2(marker, other) >= spacing * spacing;
+    });
+    if (free) {
+      sparse.add(marker);
+      level.push_back(marker);
+    } else
+      *left++ = marker;
   }
-  double distance2(int a, int b) const
-  {
-    const Real3 r = apart(a, b);
-    return r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
-  }
-};
+  waiting.erase(left, waiting.end());
+  return level;
+}
 
-/// Markers in bins of at least a given size.
-class Bins {
- public:
-  Bins(const Cloud &cloud, double size) : cloud_(cloud)
-  {
-    for (int d = 0; d < 3; ++d) {
-      n_[d] = std::max(1, static_cast<int>(std::min(cloud.period[d] / size, 200.0)));
-      scale_[d] = n_[d] / cloud.period[d];
-    }
-    heads_.assign(std::size_t(n_[0]) * n_[1] * n_[2], -1);
-    next_.assign(cloud.position.size(), -1);
-  }
-
-  void add(int marker)
-  {
-    const auto bin = bin_of(marker);
-    int &head = heads_[(std::size_t(bin[2]) * n_[1] + bin[1]) * n_[0] + bin[0]];
-    next_[marker] = head;
-    head = marker;
-  }
-
-  /// Visits markers near another until visit(marker) is false; returns whether it never was.
-  template <typename Visit> bool near(int marker, Visit visit) const
-  {
-    const auto bin = bin_of(marker);
-    std::array<int, 3> lo, hi;
-    for (int d = 0; d < 3; ++d) {
-      lo[d] = n_[d] < 3 ? 0 : bin[d] - 1;
-      hi[d] = n_[d] < 3 ? n_[d] - 1 : bin[d] + 1;
-    }
-    for (int k = lo[2]; k <= hi[2]; ++k)
-      for (int j = lo[1]; j <= hi[1]; ++j)
-        for (int i = lo[0]; i <= hi[0]; ++i) {
-          const std::array<int, 3> at{wrap(i, 0), wrap(j, 1), wrap(k, 2)};
-          int other = heads_[(std::size_t(at[2]) * n_[1] + at[1]) * n_[0] + at[0]];
-          for (; other >= 0; other = next_[other])
-            if (!visit(other)) return false;
-        }
+/// The marker itself, then the nearest of those of its body before it, within a distance.
+std::vector<int> nearest_earlier(const MarkerCloud &cloud, const MarkerBins &earlier, int marker,
+                                 double distance)
+{
+  std::vector<std::pair<double, int>> found;
+  earlier.near(marker, [&](int other) {
+    const double r2 = cloud.distance2(marker, other);
+    if (cloud.body[other] == cloud.body[marker] && r2 <= distance * distance)
+      found.emplace_back(r2, other);
     return true;
-  }
-
- private:
-  const Cloud &cloud_;
-  std::array<int, 3> n_;
-  Real3 scale_;
-  std::vector<int> heads_, next_;
-
-  int wrap(int i, int d) const { return (i % n_[d] + n_[d]) % n_[d]; }
-  std::array<int, 3> bin_of(int marker) const
-  {
-    std::array<int, 3> bin;
-    for (int d = 0; d < 3; ++d)
-      bin[d] = wrap(
-          static_cast<int>(std::floor((cloud_.position[marker][d] - cloud_.origin[d]) * scale_[d])),
-          d);
-    return bin;
-  }
-};
+  });
+  const std::size_t keep = std::min<std::size_t>(found.size(), most_rows);
+  std::partial_sort(found.begin(), found.begin() + keep, found.end());
+  std::vector<int> column{marker};
+  for (std::size_t n = 0; n < keep; ++n) column.push_back(found[n].second);
+  return column;
+}
 
 }    // namespace
 
@@ -143,25 +106,35 @@ double marker_radius(KernelKind kernel)
 void MobilityPreconditioner::build(const Flow &flow, KernelKind kernel, int count,
                                    const double *position, const int *body)
 {
+  const MarkerCloud cloud = gather(flow, count, position, body);
+  const double h = std::cbrt(flow.grid().cell_volume());
+  const double viscosity = flow.equations().viscosity;
+  const auto compliances = set_compliance(cloud, h, viscosity);
+  set_columns(cloud, choose_rows(cloud, h), compliances, viscosity, marker_radius(kernel) * h);
+}
+
+MarkerCloud MobilityPreconditioner::gather(const Flow &flow, int count, const double *position,
+                                           const int *body)
+{
   comm_ = flow.decomposition().comm;
-  const int tasks = flow.decomposition().ranks(), me = flow.decomposition().rank;
+  const int ranks = flow.decomposition().ranks(), me = flow.decomposition().rank;
   const Grid &grid = flow.grid();
   count_ = count;
-  numbers_.resize(tasks);
-  offsets_.resize(tasks);
-  std::vector<int> counts(tasks), firsts(tasks);
+  numbers_.resize(ranks);
+  offsets_.resize(ranks);
+  std::vector<int> counts(ranks), firsts(ranks);
   MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm_);
-  for (int r = 0; r < tasks; ++r) {
+  for (int r = 0; r < ranks; ++r) {
     numbers_[r] = 3 * counts[r];
     firsts[r] = r > 0 ? firsts[r - 1] + counts[r - 1] : 0;
     offsets_[r] = 3 * firsts[r];
   }
   first_ = firsts[me];
-  const int all = firsts[tasks - 1] + counts[tasks - 1];
+  const int all = firsts[ranks - 1] + counts[ranks - 1];
   all_.resize(3 * std::size_t(all));
   sums_.resize(all_.size());
 
-  Cloud cloud;
+  MarkerCloud cloud;
   cloud.position.resize(all);
   cloud.body.resize(all);
   cloud.origin = grid.origin;
@@ -173,68 +146,47 @@ void MobilityPreconditioner::build(const Flow &flow, KernelKind kernel, int coun
                  offsets_.data(), MPI_DOUBLE, comm_);
   MPI_Allgatherv(body, count, MPI_INT, cloud.body.data(), counts.data(), firsts.data(), MPI_INT,
                  comm_);
+  return cloud;
+}
 
-  // in an order that does not depend on who owns which
-  std::vector<int> waiting(all);
+/// The markers that each of this rank's depends on, itself first.
+std::vector<std::vector<int>> MobilityPreconditioner::choose_rows(const MarkerCloud &cloud,
+                                                                  double h) const
+{
+  // The order does not depend on which rank owns which markers.
+  std::vector<int> waiting(cloud.count());
   std::iota(waiting.begin(), waiting.end(), 0);
   std::sort(waiting.begin(), waiting.end(), [&](int a, int b) {
     return std::tie(cloud.body[a], cloud.position[a]) < std::tie(cloud.body[b], cloud.position[b]);
   });
 
-  const double h = std::cbrt(grid.cell_volume()), radius = marker_radius(kernel) * h;
-  std::vector<std::vector<int>> columns(count);    // the marker itself first
-  std::vector<int> before, now;
+  std::vector<std::vector<int>> columns(count_);
+  std::vector<int> before;
   double spacing = 0.5 * *std::max_element(cloud.period.begin(), cloud.period.end());
   for (; !waiting.empty(); spacing *= refinement) {
-    // markers of this level: not nearer to each other, and to those of earlier levels, than the
-    // spacing
     const bool last = spacing < 0.1 * h;
-    Bins sparse(cloud, spacing);
-    for (int marker : before) sparse.add(marker);
-    now.clear();
-    auto left = waiting.begin();
-    for (int marker : waiting) {
-      const bool free = last || sparse.near(marker, [&](int other) {
-        return cloud.body[other] != cloud.body[marker] ||
-               cloud.distance2(marker, other) >= spacing * spacing;
-      });
-      if (free) {
-        sparse.add(marker);
-        now.push_back(marker);
-      } else
-        *left++ = marker;
+    const std::vector<int> level =
+        last ? std::exchange(waiting, {}) : take_level(cloud, spacing, before, waiting);
+    MarkerBins earlier(cloud, reach * spacing);
+    for (int marker : before) earlier.add(marker);
+    for (int marker : level) {
+      if (marker >= first_ && marker < first_ + count_)
+        columns[marker - first_] = nearest_earlier(cloud, earlier, marker, reach * spacing);
+      earlier.add(marker);
     }
-    waiting.erase(left, waiting.end());
-
-    const double far = reach * spacing;
-    Bins wide(cloud, far);
-    for (int marker : before) wide.add(marker);
-    std::vector<std::pair<double, int>> found;
-    for (int marker : now) {
-      const int mine = marker - first_;
-      if (mine >= 0 && mine < count) {
-        found.clear();
-        wide.near(marker, [&](int other) {
-          const double r2 = cloud.distance2(marker, other);
-          if (cloud.body[other] == cloud.body[marker] && r2 <= far * far)
-            found.emplace_back(r2, other);
-          return true;
-        });
-        const std::size_t keep = std::min<std::size_t>(found.size(), most_rows);
-        std::partial_sort(found.begin(), found.begin() + keep, found.end());
-        columns[mine] = {marker};
-        for (std::size_t n = 0; n < keep; ++n) columns[mine].push_back(found[n].second);
-      }
-      wide.add(marker);
-    }
-    before.insert(before.end(), now.begin(), now.end());
+    before.insert(before.end(), level.begin(), level.end());
   }
+  return columns;
+}
 
+std::vector<double> MobilityPreconditioner::set_compliance(const MarkerCloud &cloud, double h,
+                                                           double viscosity)
+{
   const double disc_area = pi * disc * disc * h * h;
-  const double slip = slip_length * h / flow.equations().viscosity;
-  std::vector<double> areas(all), compliances(all);
-  Bins close(cloud, disc * h);
-  for (int marker = 0; marker < all; ++marker) close.add(marker);
+  const double slip = slip_length * h / viscosity;
+  std::vector<double> areas(cloud.count()), compliances(cloud.count());
+  MarkerBins close(cloud, disc * h);
+  for (int marker = 0; marker < cloud.count(); ++marker) close.add(marker);
   const auto for_each_close = [&](int marker, auto visit) {
     close.near(marker, [&](int other) {
       if (cloud.body[other] == cloud.body[marker] &&
@@ -243,7 +195,7 @@ void MobilityPreconditioner::build(const Flow &flow, KernelKind kernel, int coun
       return true;
     });
   };
-  for (int marker = 0; marker < all; ++marker) {
+  for (int marker = 0; marker < cloud.count(); ++marker) {
     int inside = 0;
     for_each_close(marker, [&](int) { ++inside; });
     areas[marker] = disc_area / inside;
@@ -253,7 +205,7 @@ void MobilityPreconditioner::build(const Flow &flow, KernelKind kernel, int coun
   own_compliance_.clear();
   disc_.clear();
   disc_starts_.assign(1, 0);
-  for (int n = 0; n < count; ++n) {
+  for (int n = 0; n < count_; ++n) {
     double covered = 0;
     for_each_close(first_ + n, [&](int other) {
       disc_.push_back(other);
@@ -262,7 +214,14 @@ void MobilityPreconditioner::build(const Flow &flow, KernelKind kernel, int coun
     disc_starts_.push_back(static_cast<int>(disc_.size()));
     own_compliance_.push_back(other_compliance_ * covered / areas[first_ + n]);
   }
+  return compliances;
+}
 
+void MobilityPreconditioner::set_columns(const MarkerCloud &cloud,
+                                         const std::vector<std::vector<int>> &columns,
+                                         const std::vector<double> &compliances, double viscosity,
+                                         double radius)
+{
   starts_.assign(1, 0);
   rows_.clear();
   blocks_.clear();
@@ -271,17 +230,17 @@ void MobilityPreconditioner::build(const Flow &flow, KernelKind kernel, int coun
   rows_.reserve(rows);
   blocks_.reserve(9 * rows);
   std::vector<Real3> apart;
-  std::vector<double> yielding;
-  for (int n = 0; n < count; ++n) {
+  std::vector<double> compliance;
+  for (int n = 0; n < count_; ++n) {
     apart.clear();
-    yielding.clear();
+    compliance.clear();
     for (int row : columns[n]) {
       apart.push_back(cloud.apart(first_ + n, row));
-      yielding.push_back(compliances[row]);
+      compliance.push_back(compliances[row]);
     }
     rows_.insert(rows_.end(), columns[n].begin(), columns[n].end());
     starts_.push_back(static_cast<int>(rows_.size()));
-    add_column(apart, yielding, flow.equations().viscosity, radius);
+    add_column(apart, compliance, viscosity, radius);
   }
 }
 

@@ -4,6 +4,8 @@
 
 namespace fluid {
 
+struct MarkerCloud;
+
 /// Approximate inverse of the mobility of markers, from velocities to forces, for preconditioning:
 /// a product of a sparse lower triangular matrix and its transpose. Markers are ordered from coarse
 /// to fine, such that the first ones of any number cover the surface evenly. Each depends on those
@@ -12,11 +14,11 @@ namespace fluid {
 /// is that of blobs of the size of the kernel in unbounded steady flow, and the compliance of the
 /// markers.
 ///
-/// All tasks know all markers: the result does not depend on their number.
+/// Every rank knows all markers, so the result does not depend on the number of ranks.
 class MobilityPreconditioner {
  public:
-  /// Of this task's markers, three numbers each; those of different bodies, which may move relative
-  /// to each other, are independent. Collective.
+  /// Takes this rank's markers: `count` bodies and positions, three numbers each. Markers of
+  /// different bodies, which may move relative to each other, are independent. Collective.
   void build(const Flow &flow, KernelKind kernel, int count, const double *position,
              const int *body);
 
@@ -34,21 +36,27 @@ class MobilityPreconditioner {
 
  private:
   MPI_Comm comm_ = MPI_COMM_NULL;
-  std::vector<int> numbers_, offsets_;    ///< of all tasks: three a marker
-  int first_ = 0, count_ = 0;             ///< of this task's among all markers
+  std::vector<int> numbers_, offsets_;    ///< of each rank: three numbers a marker
+  int first_ = 0, count_ = 0;             ///< this rank's among all markers
 
-  // Columns of this task's markers: rows of markers, and 3 x 3 blocks. Memory sets the time to
+  // Columns of this rank's markers: rows of markers, and 3 x 3 blocks. Memory sets the time to
   // apply them.
   std::vector<int> starts_, rows_;
   std::vector<float> blocks_;
   std::vector<double> all_, sums_;
 
-  // Markers within the disc about each of this task's, itself included; for its own force, and for
-  // that of the others.
+  // Markers within the disc about each of this rank's, itself included, and the compliance to the
+  // marker's own force and to that of the others.
   std::vector<int> disc_starts_, disc_;
   std::vector<double> own_compliance_;
   double other_compliance_ = 0;
 
+  MarkerCloud gather(const Flow &flow, int count, const double *position, const int *body);
+  std::vector<std::vector<int>> choose_rows(const MarkerCloud &cloud, double h) const;
+  /// Returns the compliance of each marker of the cloud.
+  std::vector<double> set_compliance(const MarkerCloud &cloud, double h, double viscosity);
+  void set_columns(const MarkerCloud &cloud, const std::vector<std::vector<int>> &columns,
+                   const std::vector<double> &compliances, double viscosity, double radius);
   void add_column(const std::vector<Real3> &apart, const std::vector<double> &compliance,
                   double viscosity, double radius);
 };

@@ -139,6 +139,11 @@ Eigen::Vector3d RigidSurface::uniform_part(const Flow &flow, const Vector &veloc
   return drag_ * part;
 }
 
+bool RigidSurface::Limit::holds(double residual, double slip) const
+{
+  return slip <= allowed || residual <= std::min(allowed, negligible * slip);
+}
+
 RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
 {
   Outcome outcome;
@@ -147,12 +152,11 @@ RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
   preconditioner_.apply_compliance(force_.data(), compliance_.data());
   residual_ = target_ - response_ - compliance_;
 
-  // residuals are what their uniform part leaves of them
   Real3 mean_change{0, 0, 0};
   // largest residual and slip, which differ by what markers yield; speed
   double largest[3]{0, 0, std::max(fastest(flow), largest_row(target_))};
   while (true) {
-    if (settings_.free_mean) {
+    if (settings_.free_mean) {    // what residuals are without their uniform part
       const Eigen::Vector3d part = uniform_part(flow, residual_);
       rows(residual_).colwise() -= part;
       for (int d = 0; d < 3; ++d) mean_change[d] += part[d];
@@ -161,63 +165,86 @@ RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
     change_ = residual_ + compliance_;
     largest[1] = largest_row(change_);
     reduce(largest, 3, MPI_MAX, flow);
-    const double allowed = settings_.tolerance * largest[2];
+    const Limit limit{settings_.tolerance * largest[2]};
     outcome.slip = largest[1] == 0 ? 0 : largest[1] / largest[2];
-    const auto is_still = [allowed](double residual, double slip) {
-      return slip <= allowed || residual <= std::min(allowed, negligible * slip);
-    };
-    outcome.converged = is_still(largest[0], largest[1]);
+    outcome.converged = limit.holds(largest[0], largest[1]);
     if (outcome.converged || outcome.solves >= settings_.max_solves) break;
-
-    // change_: what is left after the best combination of the directions known, step_
-    const auto known = directions_.leftCols(known_), responses = responses_.leftCols(known_);
-    auto shares = shares_.head(known_);
-    shares.noalias() = known.transpose() * residual_;
-    reduce(shares.data(), known_, MPI_SUM, flow);
-    step_.noalias() = known * shares;
-    change_.noalias() = residual_ - responses * shares;
-    const double square = shares.squaredNorm();
-    if (square > 0) use_.head(known_) = memory * use_.head(known_) + shares.cwiseAbs2() / square;
-    if (settings_.free_mean) rows(change_).colwise() -= uniform_part(flow, change_);
-    direction_ = change_ + compliance_;
-    double left[2]{largest_row(change_), largest_row(direction_)};
-    reduce(left, 2, MPI_MAX, flow);
-
-    const bool enough = is_still(left[0] / sure, left[1] / sure);
-    double products[2]{0, 0};    // of the new direction: with what is left, with its response
-    if (!enough) {
-      precondition(flow, change_, direction_);
-      shares_.head(known_).noalias() = responses.transpose() * direction_;
-      reduce(shares_.data(), known_, MPI_SUM, flow);
-      direction_.noalias() -= known * shares_.head(known_);
-      products[0] = direction_.dot(change_);
-      step_ += length_ * direction_;
-    }
-    // that of the directions known is residual_ - change_ but for a uniform velocity, which no
-    // direction feels
-    change_ = residual_ - change_;
-    flow.apply_mobility(markers_, step_.data(), response_.data());
     ++outcome.solves;
-    flow.add_mobility_flow(1.0);
-    force_ += step_;
-    preconditioner_.apply_compliance(step_.data(), compliance_step_.data());
-    response_ += compliance_step_;
-    compliance_ += compliance_step_;
-    residual_ -= response_;
-    if (enough) continue;
-
-    change_ = (response_ - change_) / length_;
-    products[1] = direction_.dot(change_);
-    reduce(products, 2, MPI_SUM, flow);
-    if (!(products[1] > 0 && products[0] > 0)) break;    // round-off
-    add_direction(1 / std::sqrt(products[1]));
-    length_ = std::min(std::max(products[0] / products[1], 1 / longest), longest);
+    if (!improve(flow, limit)) break;
   }
   if (settings_.free_mean) {
     flow.add_mean(mean_change);
     for (int d = 0; d < 3; ++d) mean_[d] += mean_change[d];
   }
   return outcome;
+}
+
+/// One solve along the best combination of the directions known and, if that is not enough, along a
+/// new direction as well. Returns false when round-off hides how the flow responds to the new one.
+bool RigidSurface::improve(Flow &flow, const Limit &limit)
+{
+  combine_known_directions(flow);
+  direction_ = change_ + compliance_;
+  double left[2]{largest_row(change_), largest_row(direction_)};
+  reduce(left, 2, MPI_MAX, flow);
+
+  const bool enough = limit.holds(left[0] / sure, left[1] / sure);
+  double products[2]{0, 0};    // of the new direction: with what is left, with its response
+  if (!enough) products[0] = find_new_direction(flow);
+  // The response of the directions known is residual_ - change_ but for a uniform velocity, which
+  // no direction feels.
+  change_ = residual_ - change_;
+  apply_step(flow);
+  if (enough) return true;
+
+  change_ = (response_ - change_) / length_;
+  products[1] = direction_.dot(change_);
+  reduce(products, 2, MPI_SUM, flow);
+  if (!(products[1] > 0 && products[0] > 0)) return false;
+  add_direction(1 / std::sqrt(products[1]));
+  length_ = std::min(std::max(products[0] / products[1], 1 / longest), longest);
+  return true;
+}
+
+/// Sets step_ to the best combination of the directions known, and change_ to the residual that it
+/// leaves.
+void RigidSurface::combine_known_directions(const Flow &flow)
+{
+  const auto known = directions_.leftCols(known_), responses = responses_.leftCols(known_);
+  auto shares = shares_.head(known_);
+  shares.noalias() = known.transpose() * residual_;
+  reduce(shares.data(), known_, MPI_SUM, flow);
+  step_.noalias() = known * shares;
+  change_.noalias() = residual_ - responses * shares;
+  const double square = shares.squaredNorm();
+  if (square > 0) use_.head(known_) = memory * use_.head(known_) + shares.cwiseAbs2() / square;
+  if (settings_.free_mean) rows(change_).colwise() -= uniform_part(flow, change_);
+}
+
+/// Sets direction_ to the preconditioned residual that is left (change_), without its part along
+/// the directions known, and adds it to step_. Returns this rank's part of its product with that
+/// residual.
+double RigidSurface::find_new_direction(const Flow &flow)
+{
+  const auto known = directions_.leftCols(known_), responses = responses_.leftCols(known_);
+  precondition(flow, change_, direction_);
+  shares_.head(known_).noalias() = responses.transpose() * direction_;
+  reduce(shares_.data(), known_, MPI_SUM, flow);
+  direction_.noalias() -= known * shares_.head(known_);
+  step_ += length_ * direction_;
+  return direction_.dot(change_);
+}
+
+/// Adds step_ to the forces, and what it changes to flow, response_ and residual_.
+void RigidSurface::apply_step(Flow &flow)
+{
+  flow.apply_mobility(markers_, step_.data(), response_.data());
+  flow.add_mobility_flow(1.0);
+  force_ += step_;
+  preconditioner_.apply_compliance(step_.data(), compliance_step_.data());
+  response_ += compliance_step_;
+  compliance_ += compliance_step_;
+  residual_ -= response_;
 }
 
 /// Positive definite on forces without a sum.

@@ -100,7 +100,17 @@ class RigidSurface {
   /// Optimal step length along the preconditioned residual, found in the previous iteration.
   double length_ = 1;
 
+  /// How large residuals may be. The slip is the residual and what markers yield.
+  struct Limit {
+    double allowed;
+    bool holds(double residual, double slip) const;
+  };
+
   void forget() { known_ = 0; }
+  bool improve(Flow &flow, const Limit &limit);
+  void combine_known_directions(const Flow &flow);
+  double find_new_direction(const Flow &flow);
+  void apply_step(Flow &flow);
   void precondition(const Flow &flow, const Vector &velocity, Vector &force);
   Eigen::Vector3d uniform_part(const Flow &flow, const Vector &velocity) const;
   void add_direction(double scale);

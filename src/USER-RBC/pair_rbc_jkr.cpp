@@ -1,6 +1,7 @@
 #include "pair_rbc_jkr.h"
 
 #include "atom.h"
+#include "cells/rbc_contact_coefficients.h"
 #include "cells/rbc_near_surfaces.h"
 #include "comm.h"
 #include "error.h"
@@ -14,7 +15,6 @@
 #include <cstring>
 
 using namespace LAMMPS_NS;
-using rbc::ContactLaw;
 
 // How far along its own surface a vertex sees nothing, in cutoffs. A surface that turns by half a
 // circle is as far from itself as the cutoff after pi / 2 of it. The rest is for surfaces that are
@@ -25,7 +25,7 @@ static constexpr double OWN_PATCH = 2.5;
 /* ---------------------------------------------------------------------- */
 
 PairRBCJKR::PairRBCJKR(LAMMPS *lmp) :
-    Pair(lmp), names(rbc::parameter_names<ContactLaw>()), parameters(names.size()),
+    Pair(lmp), coefficients(std::make_unique<ContactCoefficients>(lmp)),
     surfaces(std::make_unique<NearSurfaces>(lmp, "Pair rbc/jkr"))
 {
   writedata = 0;
@@ -43,8 +43,6 @@ PairRBCJKR::~PairRBCJKR()
   if (!allocated) return;
   memory->destroy(setflag);
   memory->destroy(cutsq);
-  memory->destroy(kind);
-  for (double **&values : parameters) memory->destroy(values);
 }
 
 void PairRBCJKR::allocate()
@@ -53,14 +51,9 @@ void PairRBCJKR::allocate()
   const int n = atom->ntypes + 1;
   memory->create(setflag, n, n, "pair:setflag");
   memory->create(cutsq, n, n, "pair:cutsq");
-  memory->create(kind, n, n, "pair:kind");
-  for (double **&values : parameters) memory->create(values, n, n, "pair:parameters");
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) {
-      setflag[i][j] = kind[i][j] = 0;
-      cutsq[i][j] = 0;
-      for (double **values : parameters) values[i][j] = 0;
-    }
+  std::fill_n(setflag[0], n * n, 0);
+  std::fill_n(cutsq[0], n * n, 0.0);
+  coefficients->allocate();
   type_pairs.assign(std::size_t(n) * n, {});
 }
 
@@ -91,52 +84,15 @@ void PairRBCJKR::coeff(int narg, char **arg)
   utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
   utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
 
-  std::vector<double> given(names.size());
-  const std::size_t law = read_law(narg, arg, given);
-
+  const auto law = coefficients->read(narg, arg, 2);
   int count = 0;
   for (int i = ilo; i <= ihi; ++i)
     for (int j = std::max(jlo, i); j <= jhi; ++j) {
-      kind[i][j] = law < std::variant_size_v<ContactLaw> ? 1 + static_cast<int>(law) : 0;
-      for (std::size_t p = 0; p < names.size(); ++p) parameters[p][i][j] = given[p];
+      coefficients->set(i, j, law);
       setflag[i][j] = 1;
       ++count;
     }
   if (count == 0) error->all(FLERR, "Incorrect args for pair coefficients");
-}
-
-/* ----------------------------------------------------------------------
-   returns the place of the law in the table, which is its end for none, and sets its parameters
-------------------------------------------------------------------------- */
-
-std::size_t PairRBCJKR::read_law(int narg, char **arg, std::vector<double> &given) const
-{
-  const std::string word = arg[2];
-  const std::size_t law = rbc::law_index<ContactLaw>(word);
-  if (law == std::variant_size_v<ContactLaw> && word != "none")
-    error->all(FLERR, 2, "Unknown pair_coeff rbc/jkr word {}; allowed: {}, none", word,
-               rbc::law_names<ContactLaw>());
-
-  const auto needed = rbc::law_parameters<ContactLaw>(law);
-  if (narg != 3 + static_cast<int>(needed.size())) {
-    std::string list;
-    for (const auto &parameter : needed)
-      list += (list.empty() ? "" : " ") + std::string(parameter.name);
-    error->all(FLERR, "Pair_coeff rbc/jkr {} takes {} values ({}), not {}", word, needed.size(),
-               needed.empty() ? "none" : list, narg - 3);
-  }
-  Arguments args(lmp, "pair_coeff rbc/jkr", narg, arg, 3);
-  for (const auto &[name, bound] : needed) {
-    const std::string what = word + ' ' + name;
-    given[place_of(name)] =
-        bound == rbc::Bound::positive ? args.positive(what) : args.not_negative(what);
-  }
-  return law;
-}
-
-std::size_t PairRBCJKR::place_of(const std::string &name) const
-{
-  return std::find(names.begin(), names.end(), name) - names.begin();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -165,7 +121,7 @@ void PairRBCJKR::check_cells()
   std::vector<char> touches(n);
   for (int i = 1; i < n; ++i)
     for (int j = i; j < n; ++j)
-      if (setflag[i][j] && kind[i][j] != 0) touches[i] = touches[j] = 1;
+      if (setflag[i][j] && coefficients->touch(i, j)) touches[i] = touches[j] = 1;
 
   tagint lone = MAXTAGINT, mixed = MAXTAGINT, largest = 0;
   for (int i = 0; i < atom->nlocal; ++i) {
@@ -200,19 +156,11 @@ void PairRBCJKR::check_cells()
 
 /* ---------------------------------------------------------------------- */
 
-std::vector<double> PairRBCJKR::values(int i, int j) const
-{
-  std::vector<double> found;
-  for (const auto &parameter : rbc::law_parameters<ContactLaw>(kind[i][j] - 1))
-    found.push_back(parameters[place_of(parameter.name)][i][j]);
-  return found;
-}
-
 PairRBCJKR::TypePair PairRBCJKR::make_type_pair(int i, int j) const
 {
-  if (kind[i][j] == 0) return {};
   TypePair pair;
-  pair.law = rbc::make_law<ContactLaw>(kind[i][j] - 1, values(i, j));
+  pair.law = coefficients->law(i, j);
+  if (!pair.law) return pair;
   std::visit(
       [&pair](const auto &law) {
         pair.tip_radius = law.tip_radius();
@@ -415,32 +363,19 @@ double PairRBCJKR::single(int /*i*/, int /*j*/, int itype, int jtype, double rsq
 void *PairRBCJKR::extract(const char *name, int &dim)
 {
   dim = 2;
-  const std::size_t place = place_of(name);
-  return place < names.size() ? parameters[place] : nullptr;
+  return coefficients->parameter(name);
 }
 
-/* ----------------------------------------------------------------------
-   how many parameters a pair of types has in a restart file: those up to the last one its law uses,
-   and at least the three that the first laws had. So files stay readable when laws are added.
-------------------------------------------------------------------------- */
-
-std::size_t PairRBCJKR::restart_count(int law_kind) const
-{
-  std::size_t count = 3;
-  for (const auto &parameter : rbc::law_parameters<ContactLaw>(law_kind - 1))
-    count = std::max(count, place_of(parameter.name) + 1);
-  return count;
-}
+/* ---------------------------------------------------------------------- */
 
 void PairRBCJKR::write_restart(FILE *fp)
 {
   write_restart_settings(fp);
   for (int i = 1; i <= atom->ntypes; ++i)
     for (int j = i; j <= atom->ntypes; ++j) {
-      std::vector<double> numbers{double(setflag[i][j]), double(kind[i][j])};
-      for (std::size_t p = 0; p < restart_count(kind[i][j]); ++p)
-        numbers.push_back(parameters[p][i][j]);
-      fwrite(numbers.data(), sizeof(double), numbers.size(), fp);
+      const double flag = setflag[i][j];
+      fwrite(&flag, sizeof(double), 1, fp);
+      coefficients->write_restart(fp, i, j);
     }
 }
 
@@ -448,20 +383,19 @@ void PairRBCJKR::read_restart(FILE *fp)
 {
   read_restart_settings(fp);
   if (!allocated) allocate();
-  const auto read = [&](double *numbers, std::size_t count) {
-    if (comm->me == 0) utils::sfread(FLERR, numbers, sizeof(double), count, fp, nullptr, error);
-    MPI_Bcast(numbers, static_cast<int>(count), MPI_DOUBLE, 0, world);
-  };
   for (int i = 1; i <= atom->ntypes; ++i)
     for (int j = i; j <= atom->ntypes; ++j) {
-      double flags[2];
-      read(flags, 2);
-      setflag[i][j] = static_cast<int>(flags[0]);
-      kind[i][j] = static_cast<int>(flags[1]);
-      std::vector<double> numbers(restart_count(kind[i][j]));
-      read(numbers.data(), numbers.size());
-      for (std::size_t p = 0; p < numbers.size(); ++p) parameters[p][i][j] = numbers[p];
+      setflag[i][j] = static_cast<int>(read_number(fp));
+      coefficients->read_restart(fp, i, j);
     }
+}
+
+double PairRBCJKR::read_number(FILE *fp)
+{
+  double number;
+  if (comm->me == 0) utils::sfread(FLERR, &number, sizeof(double), 1, fp, nullptr, error);
+  MPI_Bcast(&number, 1, MPI_DOUBLE, 0, world);
+  return number;
 }
 
 /* ----------------------------------------------------------------------
@@ -476,9 +410,7 @@ void PairRBCJKR::write_restart_settings(FILE *fp)
 
 void PairRBCJKR::read_restart_settings(FILE *fp)
 {
-  double number;
-  if (comm->me == 0) utils::sfread(FLERR, &number, sizeof(double), 1, fp, nullptr, error);
-  MPI_Bcast(&number, 1, MPI_DOUBLE, 0, world);
+  const double number = read_number(fp);
   cutoff = std::abs(number);
   own_cells = number < 0;
 }

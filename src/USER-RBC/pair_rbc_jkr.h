@@ -60,12 +60,7 @@ class PairRBCJKR : public Pair, public StepPart {
   double cutoff = 0;
   bool own_cells = false;    // cells touch themselves, too
 
-  // arrays over pairs of types, as pair_coeff and fix adapt set them
-
-  int **kind = nullptr;                 // 0 for none, else 1 + place of the law in the table
-  std::vector<std::string> names;       // of the parameters of all laws
-  std::vector<double **> parameters;    // values of each of these, 0 where the law has none such
-
+  std::unique_ptr<class ContactCoefficients> coefficients;
   std::unique_ptr<class NearSurfaces> surfaces;
   std::vector<TypePair> type_pairs;
   double range = 0;    // largest of them
@@ -76,12 +71,9 @@ class PairRBCJKR : public Pair, public StepPart {
   std::vector<double> reactions;    // on all atoms, if forces on ghosts are not returned
 
   void allocate();
-  std::size_t place_of(const std::string &) const;
-  std::size_t read_law(int, char **, std::vector<double> &) const;
-  std::vector<double> values(int, int) const;
   TypePair make_type_pair(int, int) const;
   const TypePair &types(int itype, int jtype) const;
-  std::size_t restart_count(int kind) const;
+  double read_number(FILE *);
   double slack() const;
   void check_cells();
   bool neighbors_changed();

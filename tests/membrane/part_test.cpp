@@ -95,7 +95,7 @@ TEST_P(Parts, GiveTheForcesAndSumToTheEnergiesOfTheWhole)
       for (int t : elements.triangles)
         for (int v : shape.triangles[t]) ASSERT_TRUE(known[v]);
       model.set_cell(elements, near);
-      const rbc::AreaVolume share = model.size();
+      const rbc::AreaVolume share = model.area_and_volume();
       model.volume_gradient(gradient.data());
       const rbc::MembraneEnergy part = model.forces(whole.size, force);
       size.area += share.area;
@@ -129,7 +129,7 @@ TEST(Measure, VolumeGradientIsThatOfTheVolume)
   Vertices x = waved(shape.vertices, 8), gradient(x.size());
   const auto volume = [&] {
     model.set_cell(all, x);
-    return model.size().volume;
+    return model.area_and_volume().volume;
   };
   volume();
   model.volume_gradient(gradient.data());

@@ -21,7 +21,7 @@ inline Result evaluate(rbc::MembraneModel &model, const rbc::SurfaceTemplate &sh
   result.force.resize(x.size());
   result.volume_gradient.resize(x.size());
   model.set_cell(all, x);
-  result.size = model.size();
+  result.size = model.area_and_volume();
   model.volume_gradient(result.volume_gradient.data());
   result.energy = model.forces(result.size, result.force);
   return result;

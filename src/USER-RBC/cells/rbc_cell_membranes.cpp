@@ -124,7 +124,7 @@ void CellMembranes::set_current_cell(const LocalCells::Cell &cell)
 
 void CellMembranes::store_size(std::size_t c)
 {
-  const rbc::AreaVolume share = model_.size();
+  const rbc::AreaVolume share = model_.area_and_volume();
   sizes_[2 * c] = share.area;
   sizes_[2 * c + 1] = share.volume;
 }
@@ -323,7 +323,7 @@ void CellMembranes::find_volume_sums()
       sums_[3 * c] += gradient[i].dot(Vec3(v[cell.atom[i]]));
       sums_[3 * c + 1] += gradient[i].squaredNorm();
     }
-    sums_[3 * c + 2] = model_.size().volume;
+    sums_[3 * c + 2] = model_.area_and_volume().volume;
   }
   cells_.sum_shared(sums_, 3);
 }

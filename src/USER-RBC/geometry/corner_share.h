@@ -1,8 +1,9 @@
 #pragma once
 
-#include "geometry/surface_template.h"
+#include "geometry/vec3.h"
 
 #include <Eigen/Geometry>
+#include <array>
 
 namespace rbc {
 

@@ -64,12 +64,33 @@ bool connected(const std::vector<std::vector<int>> &neighbors)
   return count == neighbors.size();
 }
 
+/// Throws unless the triangles around each vertex form one fan.
+void require_fans(const SurfaceTemplate &surface, const std::map<std::pair<int, int>, int> &left)
+{
+  for (int v = 0; v < surface.vertex_count(); ++v) {
+    std::size_t around = 0;
+    int w = surface.neighbors[v][0];
+    do {
+      w = opposite(surface.triangles[left.at({v, w})], v, w);
+      ++around;
+    } while (w != surface.neighbors[v][0]);
+    require(around == surface.incident_triangles[v].size(),
+            "the surface touches itself at vertex " + std::to_string(v + 1));
+  }
+}
+
 }    // namespace
 
 SurfaceTemplate::SurfaceTemplate(std::vector<Vec3> vertices_in, std::vector<Corners> triangles_in) :
     vertices(std::move(vertices_in)), triangles(std::move(triangles_in)),
     vertex_area(vertices.size()), curvature(vertices.size()), neighbors(vertices.size()),
     incident_triangles(vertices.size())
+{
+  connect_vertices();
+  measure_hinges(measure_triangles());
+}
+
+void SurfaceTemplate::connect_vertices()
 {
   require(triangles.size() >= 4, "a closed surface needs at least 4 triangles");
   const auto left = directed_edges(vertex_count(), triangles);
@@ -93,17 +114,12 @@ SurfaceTemplate::SurfaceTemplate(std::vector<Vec3> vertices_in, std::vector<Corn
   require(vertex_count() - static_cast<int>(hinges.size()) + static_cast<int>(triangles.size()) ==
               2,
           "the surface is not a sphere topologically (vertices - edges + triangles must be 2)");
-  for (int v = 0; v < vertex_count(); ++v) {
-    std::size_t around = 0;
-    int w = neighbors[v][0];
-    do {
-      w = opposite(triangles[left.at({v, w})], v, w);
-      ++around;
-    } while (w != neighbors[v][0]);
-    require(around == incident_triangles[v].size(),
-            "the surface touches itself at vertex " + std::to_string(v + 1));
-  }
+  require_fans(*this, left);
+}
 
+/// Returns the normal of each triangle.
+std::vector<Vec3> SurfaceTemplate::measure_triangles()
+{
   std::vector<Vec3> normals(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto &[i, j, k] = triangles[t];
@@ -124,7 +140,11 @@ SurfaceTemplate::SurfaceTemplate(std::vector<Vec3> vertices_in, std::vector<Corn
     }
   }
   require(volume > 0, "the triangles are oriented inward (volume " + std::to_string(volume) + ")");
+  return normals;
+}
 
+void SurfaceTemplate::measure_hinges(const std::vector<Vec3> &normals)
+{
   for (const Hinge &hinge : hinges) {
     const Vec3 edge = vertices[hinge.b] - vertices[hinge.a];
     const double length = edge.norm();

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "geometry/vec3.h"
+
 #include <array>
 #include <vector>
 
 namespace rbc {
-
-using Vec3 = Eigen::Vector3d;
 
 /// Inverse metric and area of a stress-free triangle, in the basis of its edges from corner 0.
 struct ReferenceTriangle {
@@ -56,6 +55,11 @@ class SurfaceTemplate {
   std::vector<std::vector<int>> incident_triangles;    ///< triangles around each vertex
   double area = 0, volume = 0;
   double longest_edge = 0, mean_edge = 0;
+
+ private:
+  void connect_vertices();
+  std::vector<Vec3> measure_triangles();
+  void measure_hinges(const std::vector<Vec3> &normals);
 };
 
 }    // namespace rbc

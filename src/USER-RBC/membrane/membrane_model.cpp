@@ -67,7 +67,7 @@ void MembraneModel::set_cell(const CellElements &elements, const std::vector<Vec
   });
 }
 
-AreaVolume MembraneModel::size() const
+AreaVolume MembraneModel::area_and_volume() const
 {
   const CellElements &elements = *elements_;
   const int count = elements.owned_triangles;
@@ -251,18 +251,33 @@ MembraneEnergy MembraneModel::load(const Law &law, const AreaVolume &size)
         return elements.triangle_energy_weight[t] * area * (sheet.density + stiffening.density);
       });
 
+  energy.area = area_penalty(size.area);
+  energy.volume = volume_penalty(size.volume);
+  return energy;
+}
+
+/// This rank's share. Whole cells are counted by the rank that owns their first vertex.
+double MembraneModel::area_penalty(double cell_area) const
+{
+  const CellElements &elements = *elements_;
+  const double local_area = parameters_.local_area;
+  double energy = 0;
   if (local_area > 0)
-    energy.area = sum(count, [&](int t) {
+    energy = sum(elements.owned_triangles, [&](int t) {
       const double area = shape_.reference[elements.triangles[t]].area;
       const double strain = twice_area_[t] / (2 * area) - 1;
       return elements.triangle_energy_weight[t] * local_area / 2 * strain * strain * area;
     });
-  // The penalties of a whole cell are counted by the rank that owns its first vertex.
-  if (elements.owned[0]) {
-    energy.area += parameters_.global_area / 2 * area_strain * area_strain * shape_.area;
-    energy.volume = parameters_.volume / 2 * volume_strain * volume_strain * rest_volume_;
-  }
+  const double strain = (cell_area - shape_.area) / shape_.area;
+  if (elements.owned[0]) energy += parameters_.global_area / 2 * strain * strain * shape_.area;
   return energy;
+}
+
+double MembraneModel::volume_penalty(double volume) const
+{
+  if (!elements_->owned[0]) return 0;
+  const double strain = (volume - rest_volume_) / rest_volume_;
+  return parameters_.volume / 2 * strain * strain * rest_volume_;
 }
 
 void MembraneModel::sum_corners(std::vector<Vec3> &f) const

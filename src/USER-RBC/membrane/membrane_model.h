@@ -31,7 +31,6 @@ struct AreaVolume {
   double area = 0, volume = 0;
 };
 
-
 struct MembraneEnergy {
   double sheet = 0, bending = 0, area = 0, volume = 0;
   double total() const { return sheet + bending + area + volume; }
@@ -58,7 +57,7 @@ class MembraneModel {
   void set_cell(const CellElements &elements, const std::vector<Vec3> &x);
 
   /// This rank's share of the size.
-  AreaVolume size() const;
+  AreaVolume area_and_volume() const;
 
   /// dV/dx of the vertices owned (others are left undefined), an entry for each vertex of the
   /// template.
@@ -83,6 +82,8 @@ class MembraneModel {
   double resist_creases();
   template <BendingForm form, typename Law>
   MembraneEnergy load(const Law &law, const AreaVolume &size);
+  double area_penalty(double cell_area) const;
+  double volume_penalty(double volume) const;
   void sum_corners(std::vector<Vec3> &f) const;
 
   const SurfaceTemplate &shape_;
