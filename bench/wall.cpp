@@ -109,12 +109,12 @@ void rigid(const char *name, const Tube &tube, bool recycled)
     RigidSurface::Settings settings;
     settings.tolerance = recycled ? 1e-3 : 1e-12;
     settings.max_solves = recycled ? 100 : solves;
-    surface.choose(settings);
+    surface.set_settings(settings);
     for (int time = 0; time < (recycled ? 20 : 1); ++time) evaluate(time);
     if (recycled) {
       settings.tolerance = 1e-12;
       settings.max_solves = solves;
-      surface.choose(settings);
+      surface.set_settings(settings);
       evaluate(20);
     }
     print(name, tube, recycled ? "recycled" : "preconditioned", solves, tube.slip(flow));

@@ -26,7 +26,8 @@ template <int N> struct ComplexLines {
 using LineEnds = ImageFactors;
 constexpr LineEnds zero_slope{1, 1}, zero_value{0, 0};
 
-/// Part of the image factors that acts in row k of n rows.
+/// Sum of the image factors of those ends that row k of n rows adjoins: the first row the lower
+/// one, the last row the upper one.
 inline double end_factor(const LineEnds &ends, int k, int n)
 {
   return (k == 0 ? ends.lower : 0) + (k == n - 1 ? ends.upper : 0);

@@ -14,8 +14,8 @@ struct FlowDiagnostics {
   double max_divergence = 0;    ///< times the smallest spacing, over max_speed
 };
 
-/// Collective; fills the ghosts of the velocity where they are not.
-/// The forcing is that of the last solve, or of the end of the last step.
+/// Collective. Fills the ghosts of the velocity if they are not filled. `forcing` must be that of
+/// the last solve or, with inertia, of the end of the last step.
 FlowDiagnostics diagnose(Flow &flow, const Forcing &forcing);
 
 }    // namespace fluid

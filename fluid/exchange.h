@@ -25,7 +25,7 @@ inline std::vector<Transfer> overlaps(const Box &mine, const std::vector<Box> &t
   return parts;
 }
 
-/// Work done by communication since construction: what this rank sent to others.
+/// Messages and bytes that this rank has sent to other ranks since construction.
 struct Traffic {
   long messages = 0;
   long bytes = 0;

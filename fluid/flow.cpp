@@ -44,8 +44,8 @@ int Flow::spread(const MarkerSet &markers, const double *force, double factor)
   return fluid::spread(grid_, markers, force, factor, total_.force, reach(markers.kind));
 }
 
-/// Where kernels find velocities: of sheets where these have neighbors on all sides, and beyond
-/// plates.
+/// The box inside which kernels must stay. For sheets it is smaller by the layer in which second
+/// differences are missing, except beyond plates, where the mirror image gives the velocity.
 Box Flow::reach(MarkerKind kind) const
 {
   Box box = halo_.box();

@@ -24,14 +24,17 @@ class Flow {
 
   void clear_force();
 
-  /// Returns the first marker whose kernel leaves the ghost layers (nothing is spread for it), or
-  /// -1. Sheets take the outermost layer for differences.
+  /// Adds `factor` times the forces of the markers (three numbers a row) to the force density.
+  /// Stops at the first marker whose kernel leaves the ghost layers and returns its row, or -1. For
+  /// sheets the kernels must stay one layer further inside, where second differences of the
+  /// velocity exist. Not collective.
   int spread(const MarkerSet &markers, const double *force, double factor);
 
   /// Adds the ghosts' share of the force to its owners: the exchange between spread and solve.
   void accumulate_ghosts();
 
-  /// Without inertia.
+  /// Computes the velocity from forces and forcing; for flow without inertia. Collective. The
+  /// ghosts of the velocity are not filled.
   void solve(const Forcing &forcing);
 
   /// Solves so far.
@@ -56,11 +59,11 @@ class Flow {
 
   void interpolate(const MarkerSet &markers, double *velocity);
 
-  /// Velocities at the markers that further forces on them would add now (solve, start_step): the
-  /// mobility of the markers, by the coupled scheme. Returns the first marker whose kernel leaves
-  /// the ghost layers, or -1; the velocity is valid only if that is -1 on all ranks, as it is for
-  /// the markers of such a spread, at the same positions. `add_mobility_flow` adds a multiple of
-  /// these forces and of their flow.
+  /// Computes the velocities that further forces on the markers would add to theirs, after solve or
+  /// start_step; by the coupled scheme. Costs a solve; the flow itself stays as it is. Returns the
+  /// first marker whose kernel leaves the ghost layers, or -1; the velocities are valid only if all
+  /// ranks return -1. Collective. add_mobility_flow() then adds `factor` times these forces and
+  /// their flow to the flow.
   int apply_mobility(const MarkerSet &markers, const double *force, double *velocity);
   void add_mobility_flow(double factor);
 
@@ -89,7 +92,8 @@ class Flow {
     shared_ = false;
   }
 
-  /// Of the last solve or step: with inertia in its middle, and zero before the first step.
+  /// Pressure of the last solve or step, with inertia that in the middle of the step; zero before
+  /// the first step. Costs a solve, and memory at the first call. Collective.
   const ScalarField &pressure();
 
   /// Force density (summed over this rank's cells) that went straight into a plate.
@@ -151,7 +155,7 @@ class Flow {
   PlateVelocities previous_plates_;
   bool previous_shared_ = false;    ///< the ghosts of `previous_` are filled
   VectorField rhs_;         ///< of the momentum equation; without convection for the pressure only
-  bool stepped_ = false;    ///< since construction
+  bool stepped_ = false;    ///< start_step() was called since construction or restore()
 
   ScalarField pressure_;
   ForcedVelocity mobility_;    ///< of the last apply_mobility

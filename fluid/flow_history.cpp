@@ -38,9 +38,9 @@ std::vector<double> Flow::history()
   if (decomposition_.rank == 0) {
     all.reserve(history_length());
     all.assign({static_cast<double>(steps_), dt_});
-    for (const Real3 &wall :
+    for (const Real3 &plate :
          {plates_.lower, plates_.upper, previous_plates_.lower, previous_plates_.upper})
-      all.insert(all.end(), wall.begin(), wall.end());
+      all.insert(all.end(), plate.begin(), plate.end());
   }
   append(gather(comm, decomposition_.bricks, grid_.domain(), total_.velocity));
   if (equations_.inertia == Inertia::convective)
@@ -54,11 +54,11 @@ void Flow::restore(const double *history)
 {
   steps_ = static_cast<int>(history[0]);
   dt_ = history[1];
-  const double *wall = history + 2;
+  const double *plate = history + 2;
   for (Real3 *to :
        {&plates_.lower, &plates_.upper, &previous_plates_.lower, &previous_plates_.upper}) {
-    std::copy_n(wall, 3, to->begin());
-    wall += 3;
+    std::copy_n(plate, 3, to->begin());
+    plate += 3;
   }
   const double *next = history + head;
   cut_out(brick(), grid_.domain(), next, total_.velocity);

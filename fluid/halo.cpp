@@ -13,8 +13,8 @@ Box with_ghosts(const Grid &grid, const Box &brick, int width)
     box.hi[d] += width;
   }
   if (grid.plates) {
-    box.lo[2] = std::max(box.lo[2], -Halo::wall_layers);
-    box.hi[2] = std::min(box.hi[2], grid.cells[2] + Halo::wall_layers + 1);
+    box.lo[2] = std::max(box.lo[2], -Halo::plate_layers);
+    box.hi[2] = std::min(box.hi[2], grid.cells[2] + Halo::plate_layers + 1);
   }
   return box;
 }

@@ -5,13 +5,13 @@
 
 namespace fluid {
 
-/// Layers of cells around a rank's brick that mirror the owners' values, periodic images included.
-/// Between plates the layers beyond a plate belong to the boundary condition: `wall_layers` planes
-/// of faces, for which the upper plate, itself a plane of lower faces, takes one layer of cells
-/// more.
+/// Layers of ghost cells around a rank's brick. They hold the values of the ranks that own the
+/// cells, or of their periodic images. Beyond a plate there are `plate_layers` layers, filled from
+/// the boundary condition; at the upper plate there is one more, because the plate itself is a
+/// plane of lower faces.
 class Halo {
  public:
-  static constexpr int wall_layers = 2;
+  static constexpr int plate_layers = 2;
 
   Halo() = default;
   Halo(const Grid &grid, const Decomposition &decomposition, int width);

@@ -17,7 +17,8 @@ class Interior {
 
   double volume() const { return volume_; }
 
-  /// Before accumulate_ghosts: half the force of a cell on each of two faces.
+  /// Adds the force density `density` times the share of each cell to the flow's force, half to
+  /// each of the two faces of the cell; call before accumulate_ghosts.
   void add_force(const Flow &flow, const Real3 &density) const;
 
   /// Collective; fills the ghosts of the velocity where they are not.

@@ -22,11 +22,11 @@ class MobilityPreconditioner {
   void build(const Flow &flow, KernelKind kernel, int count, const double *position,
              const int *body);
 
-  /// Velocity with which markers yield to forces, beyond that of the flow: as a slip length of
-  /// 0.0003 of the grid's spacing would give for the part of the traction that differs from the
-  /// mean within two spacings. Forces that the kernel blurs away, as between markers much closer
-  /// than a spacing, would be without bounds otherwise. Symmetric and positive semidefinite.
-  /// Collective.
+  /// Computes the velocity with which markers yield to forces, in addition to that of the flow. It
+  /// is that of a slip length of 0.0003 grid spacings, applied to the force of a marker less the
+  /// mean traction within two spacings of it. Without it, forces that the kernel averages out
+  /// (between markers much closer than a spacing) would be unbounded. Symmetric and positive
+  /// semidefinite. Three numbers for each marker of this rank. Collective.
   void apply_compliance(const double *force, double *velocity);
 
   /// Collective.

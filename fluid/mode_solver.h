@@ -20,7 +20,7 @@ class ModeSolver {
 
   virtual void set_shift(double shift) = 0;
 
-  /// The pressure that goes from solve to solve; null if the scheme keeps none.
+  /// Modes of the pressure that a projection keeps for the next solve; null for other schemes.
   virtual const Components<Complex, 1> *kept_pressure() const { return nullptr; }
 };
 
@@ -31,8 +31,8 @@ std::unique_ptr<ModeSolver> make_periodic_modes(const Grid &grid, const Box &mod
 
 /// Plates at both ends of z, with the conditions of the grid. Exact to round-off: velocity and
 /// pressure are not split.
-std::unique_ptr<ModeSolver> make_walled_modes(const Grid &grid, const Box &modes, double viscosity,
-                                              double shift);
+std::unique_ptr<ModeSolver> make_coupled_modes(const Grid &grid, const Box &modes, double viscosity,
+                                               double shift);
 
 /// The same by a fractional step: momentum with the pressure of the solve before, then a projection
 /// that makes the velocity free of divergence and changes the pressure (Guermond, Minev & Shen,

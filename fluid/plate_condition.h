@@ -3,7 +3,8 @@
 namespace fluid {
 
 /// What the fluid does at a plate. No plate lets fluid through. A further condition needs its name
-/// and its factor here, and its word in the arguments of fix rbc/fluid; nothing else depends on it.
+/// and its factor here, and its word in the arguments of fix rbc/fluid. Its name goes to the end of
+/// the list: restart files hold its place, below 16.
 enum class PlateCondition {
   no_slip,     ///< The fluid moves with the plate.
   free_slip    ///< The plate exerts no shear traction, like a plane of symmetry.
@@ -12,7 +13,8 @@ enum class PlateCondition {
 /// The velocity along the plate at a point beyond it is this factor times the velocity at the
 /// mirror image of the point, plus one minus the factor times the velocity of the plate. The
 /// velocity across a plate has the factor -1 in all cases. Factors lie in [-1, 1]: then the
-/// equations stay positive.
+/// equations stay positive. A factor knows no spacing: one between -1 and 1 is a slip length of
+/// h/2 (1 + factor) / (1 - factor), which shrinks with the grid.
 constexpr double image_factor(PlateCondition condition)
 {
   switch (condition) {

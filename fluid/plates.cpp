@@ -4,7 +4,7 @@ namespace fluid {
 
 namespace {
 
-constexpr int layers = Halo::wall_layers;
+constexpr int layers = Halo::plate_layers;
 
 struct PlanePair {
   int beyond, inside;
@@ -50,10 +50,11 @@ void reflect_velocity(const Grid &grid, const PlateVelocities &plates, const Vec
   const Box &box = velocity.box();
   for (bool upper : {false, true}) {
     if (!reaches(grid, box, upper)) continue;
-    const Real3 &wall = upper ? plates.upper : plates.lower;
+    const Real3 &plate_velocity = upper ? plates.upper : plates.lower;
     for (int c = 0; c < 3; ++c) {
       const View<double> u = velocity[c];
-      const double factor = image_factor(grid, c, upper), of_plate = (1 - factor) * wall[c];
+      const double factor = image_factor(grid, c, upper),
+                   of_plate = (1 - factor) * plate_velocity[c];
       if (c == 2) {
         const int plate = upper ? grid.cells[2] : 0;
         for_each_in_plane(box, [&](int i, int j) { u(i, j, plate) = 0; });

@@ -9,17 +9,17 @@ namespace fluid {
 
 namespace {
 
-// Guesses are extrapolated over so many intervals of the last two evaluations at most. The residual
-// left by directions known must be so much below the one allowed that the solve for them need not
-// be followed by another.
+// farthest: forces are extrapolated over at most this many intervals between the last two
+// evaluations. sure: an iteration with kept directions alone is the last one if it should leave
+// less than this part of the residual allowed.
 constexpr double farthest = 1.5;
 constexpr double sure = 0.8;
 
-// Of a slip larger than the one allowed: where the residual is less than this part, it is that
-// markers yield.
+// If the slip is above the one allowed but the residual is below this part of it, the rest of the
+// slip is the compliance of the markers, which iterations cannot lower.
 constexpr double negligible = 0.3;
 
-// Of the use of directions in the next evaluation that counts.
+// Factor by which the use of a direction in the past counts less with each iteration.
 constexpr double memory = 0.95;
 
 constexpr double longest = 4;    ///< steps along the preconditioned residual, and their inverse
@@ -274,8 +274,9 @@ void RigidSurface::add_direction(double scale)
 std::size_t RigidSurface::bytes() const
 {
   std::size_t numbers = uniform_.size() + directions_.size() + responses_.size();
-  for (const Vector *vector : {&position_, &target_, &force_, &earlier_, &residual_, &step_,
-                               &response_, &direction_, &change_, &use_, &shares_})
+  for (const Vector *vector :
+       {&position_, &target_, &force_, &earlier_, &residual_, &step_, &response_, &direction_,
+        &change_, &use_, &shares_, &compliance_, &compliance_step_})
     numbers += vector->size();
   return numbers * sizeof(double) + preconditioner_.bytes();
 }

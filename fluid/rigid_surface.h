@@ -6,23 +6,22 @@
 
 namespace fluid {
 
-/// Markers of rigid no-slip surfaces that move as prescribed, whatever the flow. The forces lambda
-/// that they exert on the fluid obey
-///   A lambda = U - u,
-/// where A = J S J^T is the mobility of the markers and u the flow of all other forces there.
-/// Forces extrapolated from the last evaluations are part of the flow from the start (spread). From
-/// there on each iteration costs one solve (enforce). It adds the best combination of the
-/// directions known, kept from earlier iterations and evaluations with their responses, and a new
-/// one, the preconditioned residual. Without the past these are conjugate gradients.
-///
-/// Where the mean velocity of a triply periodic flow is not prescribed it follows from the balance
-/// of forces: it is an unknown c more, with sum lambda = given, A lambda + c = U - u. Directions
-/// then have no net force.
+/// Markers of rigid no-slip surfaces that move as prescribed. The forces lambda that they exert on
+/// the fluid obey A lambda = U - u. A is the mobility of the markers (spread, solve, interpolate),
+/// U the velocity prescribed, u the velocity that the flow of all other forces has at the markers.
+/// spread() adds forces extrapolated from the last two evaluations before the flow is solved.
+/// enforce() then corrects them; each iteration costs one solve. An iteration has two parts: the
+/// best combination of search directions kept from earlier iterations and evaluations, together
+/// with A times each of them, and one new direction, the preconditioned residual. Without kept
+/// directions this is the conjugate gradient method. Where the mean velocity c of a triply periodic
+/// flow is free, it is a further unknown: A lambda + c = U - u and sum lambda = given. Search
+/// directions then have no net force.
 class RigidSurface {
  public:
   struct Settings {
-    /// Largest slip relative to the largest speed; where markers yield by more, the largest
-    /// residual.
+    /// Largest slip allowed, relative to the largest speed. Markers also yield by their compliance
+    /// (see MobilityPreconditioner); where that is larger than the tolerance, it bounds what is
+    /// left beyond it.
     double tolerance = 1e-3;
     int max_solves = 100;    ///< of an evaluation, including the first
     int most_directions = 64;
@@ -31,7 +30,7 @@ class RigidSurface {
   const Settings &settings() const { return settings_; }
 
   /// Takes effect with the next set_markers.
-  void choose(const Settings &settings) { settings_ = settings; }
+  void set_settings(const Settings &settings) { settings_ = settings; }
 
   /// New markers at new places, three numbers each; all that is known of others is forgotten.
   void set_markers(const Flow &flow, KernelKind kernel, int count, const double *position,

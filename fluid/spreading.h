@@ -27,7 +27,7 @@ struct MarkerSet {
 int spread(const Grid &grid, const MarkerSet &markers, const double *applied, double factor,
            const VectorField &force, const Box &within);
 
-/// Within all that is stored.
+/// The same with `within` = force.box(), the whole array.
 inline int spread(const Grid &grid, const MarkerSet &markers, const double *applied, double factor,
                   const VectorField &force)
 {

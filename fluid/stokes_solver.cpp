@@ -8,7 +8,7 @@ StokesSolver::StokesSolver(const Grid &grid, const Decomposition &decomposition,
     modes_(!grid.plates ? make_periodic_modes(grid, fourier_.modes(), viscosity, shift, hold_mean)
            : scheme == Scheme::projection
                ? make_projected_modes(grid, fourier_.modes(), viscosity, shift)
-               : make_walled_modes(grid, fourier_.modes(), viscosity, shift))
+               : make_coupled_modes(grid, fourier_.modes(), viscosity, shift))
 {
 }
 

@@ -7,11 +7,11 @@ ComputeStyle(rbc/aggregate,ComputeRBCAggregate);
 #ifndef LMP_COMPUTE_RBC_AGGREGATE_H
 #define LMP_COMPUTE_RBC_AGGREGATE_H
 
+#include "cells/rbc_group_cells.h"
+#include "cells/rbc_near_surfaces.h"
 #include "compute.h"
 #include "contact/aggregate_sizes.h"
 #include "contact/touching_cells.h"
-#include "cells/rbc_group_cells.h"
-#include "cells/rbc_near_surfaces.h"
 
 #include <vector>
 

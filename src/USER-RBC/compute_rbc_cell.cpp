@@ -97,7 +97,10 @@ void ComputeRBCCell::compute_array()
   }
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   a cell may lie on several ranks: each adds the triangles whose first corner it owns, and the
+   vertices it owns
+------------------------------------------------------------------------- */
 
 void ComputeRBCCell::add_sums(CellMembranes &membranes)
 {

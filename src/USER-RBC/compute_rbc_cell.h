@@ -7,8 +7,8 @@ ComputeStyle(rbc/cell,ComputeRBCCell);
 #ifndef LMP_COMPUTE_RBC_CELL_H
 #define LMP_COMPUTE_RBC_CELL_H
 
-#include "compute.h"
 #include "cells/rbc_group_cells.h"
+#include "compute.h"
 
 #include <vector>
 

@@ -100,7 +100,7 @@ FixRBCIB::Settings FixRBCIB::read_arguments(int narg, char **arg)
     error->all(FLERR, "Fix rbc/ib order {} needs integrator rkc", settings.options.order);
   if (sheets == Sheets::YES && direct)
     error->all(FLERR, "Fix rbc/ib sheets yes needs scheme elastic");
-  settings.markers.timestep_follows = settings.error_bound > 0;
+  settings.markers.any_speed_at_start = settings.error_bound > 0;
   return settings;
 }
 
@@ -113,13 +113,13 @@ void FixRBCIB::build(const Settings &settings)
   integrator_code = settings.integrator->code;
   const std::string style = fmt::format("Fix rbc/ib {}", id);
   markers = std::make_unique<ImmersedMarkers>(lmp, style, groupbit, settings.markers);
-  markers->viscosity().choose(settings.tolerance, settings.max_solves);
+  markers->viscosity().set_limits(settings.tolerance, settings.max_solves);
   steps =
       std::make_unique<TimeSteps>(lmp, style, *markers, settings.integrator->make(settings.options),
                                   settings.error_bound, settings.largest_dt);
   if (!direct) return;
   masses = std::make_unique<MassiveMarkers>(lmp);
-  masses->choose(settings.tolerance, settings.max_solves);
+  masses->set_limits(settings.tolerance, settings.max_solves);
   markers->set_masses(masses.get());
 }
 
@@ -234,11 +234,15 @@ void FixRBCIB::check_run() const
 void FixRBCIB::check_inertia() const
 {
   const bool inertia = flow->has_inertia();
-  if (inertia && !steps->integrator().allows_inertia())
+  if (inertia && !steps->integrator().allows_inertia()) {
+    std::string words;
+    for (const rbc::IntegratorKind &kind : rbc::integrator_kinds)
+      if (kind.make({})->allows_inertia())
+        words += (words.empty() ? "" : " or ") + std::string(kind.word);
     error->all(FLERR,
-               "Fix rbc/ib {}: fix rbc/fluid {} has inertia, for which integrator must be euler or "
-               "midpoint",
-               id, fluid);
+               "Fix rbc/ib {}: fix rbc/fluid {} has inertia, for which integrator must be {}", id,
+               fluid, words);
+  }
   if (inertia && steps->adaptive())
     error->all(FLERR, "Fix rbc/ib {} adapt needs fix rbc/fluid {} inertia none", id, fluid);
   if (!masses) return;

@@ -59,9 +59,9 @@ void PairRBCJKR::allocate()
 
 /* ---------------------------------------------------------------------- */
 
-void PairRBCJKR::report_to(const std::shared_ptr<CollectiveStop> &driver)
+void PairRBCJKR::report_to(const std::shared_ptr<CollectiveStop> &stop)
 {
-  surfaces->report_to(driver);
+  surfaces->report_to(stop);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -199,7 +199,8 @@ TEST(ContactLaws, TableMakesTheLawOfAName)
   EXPECT_EQ(force(rbc::make_law<ContactLaw>(0, {0.07, 0.0013, 0.31})),
             JkrContact(0.07, 0.0013, 0.31).force(0.1));
   EXPECT_EQ(force(rbc::make_law<ContactLaw>(1, {0.07, 0.31})), HertzContact(0.07, 0.31).force(0.1));
-  EXPECT_THROW(rbc::make_law<ContactLaw>(2, {}), std::bad_variant_access);
+  EXPECT_THROW(rbc::make_law<ContactLaw>(std::variant_size_v<ContactLaw>, {}),
+               std::bad_variant_access);
 }
 
 }    // namespace

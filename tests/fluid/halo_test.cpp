@@ -60,8 +60,8 @@ TEST(Halo, StoresTheBrickAndItsGhosts)
       if (closed) {
         EXPECT_GE(halo.box().lo[d], lowest);
         EXPECT_LE(halo.box().hi[d], highest);
-        EXPECT_LE(halo.box().lo[d], std::max(lowest, -Halo::wall_layers));
-        EXPECT_GE(halo.box().hi[d], std::min(highest, grid.cells[d] + Halo::wall_layers));
+        EXPECT_LE(halo.box().lo[d], std::max(lowest, -Halo::plate_layers));
+        EXPECT_GE(halo.box().hi[d], std::min(highest, grid.cells[d] + Halo::plate_layers));
       } else {
         EXPECT_EQ(halo.box().lo[d], lowest);
         EXPECT_EQ(halo.box().hi[d], highest);

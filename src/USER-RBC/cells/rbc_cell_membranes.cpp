@@ -102,7 +102,9 @@ void CellMembranes::add_forces()
   for (std::size_t c = 0; c < local.size(); ++c) {
     set_current_cell(local[c]);
     if (measuring && local[c].shared < 0) store_size(c);
-    check(local[c], measuring ? sizes_[2 * c + 1] : shape().volume);
+    check_mesh(local[c]);
+    if (measuring) check_volume(local[c], sizes_[2 * c + 1]);
+    // Where sizes are not measured, those of an earlier step stand here and the model uses none.
     add_elastic_forces(local[c], {sizes_[2 * c], sizes_[2 * c + 1]});
   }
   stopwatch_.stop();
@@ -142,10 +144,14 @@ void CellMembranes::measure_shared_cells()
 
 /* ---------------------------------------------------------------------- */
 
-void CellMembranes::check(const LocalCells::Cell &cell, double volume)
+void CellMembranes::check_mesh(const LocalCells::Cell &cell)
 {
   const std::string flaw = model_.find_flaw();
   if (!flaw.empty()) report(cell, flaw);
+}
+
+void CellMembranes::check_volume(const LocalCells::Cell &cell, double volume)
+{
   if (volume <= 0) report(cell, "the cell turned inside out");
 }
 
@@ -304,7 +310,8 @@ void CellMembranes::constrain_volume(double dt, bool new_step, bool mid_step)
 }
 
 /* ----------------------------------------------------------------------
-   of each cell: flux through its surface, squared gradient of its volume, volume
+   Fills sums_ with three numbers for each cell here, summed over ranks: sum of dV/dx_i . v_i, sum
+   of |dV/dx_i|^2, and the volume V. Also fills volume_gradient_.
 ------------------------------------------------------------------------- */
 
 void CellMembranes::find_volume_sums()

@@ -35,8 +35,8 @@ class CellMembranes : public StepPart, protected Pointers {
   LocalCells &local_cells() { return cells_; }
   const LocalCells &local_cells() const { return cells_; }
 
-  /// Collective, at the start of a run: finds the cells. Errors end the run unless a driver asks
-  /// for them.
+  /// Collective, at the start of a run: finds the cells. From here on errors end the run, unless
+  /// report_to() is called afterwards.
   void start_run();
 
   /// Collective, after atoms migrated.
@@ -45,15 +45,18 @@ class CellMembranes : public StepPart, protected Pointers {
   /// Distance from an owned vertex within which it needs its neighbors, as edges may be stretched.
   double ghost_reach() const;
 
-  /// A variable factor on the rest volume. Collective.
+  /// Evaluates the factor on the rest volume if it is a variable, once for each step and timestep.
+  /// `new_run`: a jump between runs is not a change within a step. Collective.
   void update_swelling(bool new_run);
   Swelling &swelling() { return settings_.swelling; }
 
-  /// Takes each vertex' share of the virial; empty where no virial is asked for.
+  /// Function that receives the virial (xx, yy, zz, xy, xz, yz) of a vertex with its local index.
+  /// No virial is computed if it is empty.
   using VirialTally = std::function<void(int vertex, double *virial)>;
   void tally_virial(VirialTally tally) { tally_ = std::move(tally); }
 
-  /// Adds elastic and viscous forces to the atoms.
+  /// Adds elastic and viscous forces to atom->f of this rank's vertices; ghosts must have
+  /// positions. Collective. Flaws of the mesh are reported; without a driver they end the run here.
   void add_forces();
 
   /// Elastic energies of all cells in the last add_forces(). Collective.
@@ -67,12 +70,13 @@ class CellMembranes : public StepPart, protected Pointers {
   /// Adds a multiple of the viscous forces at the atoms' velocities.
   void add_viscous_forces(bool with_virial, double multiple = 1);
 
-  /// Keeps the velocities at which the viscosity that thins is linearised. If `frozen` it stays
-  /// what it is there.
+  /// Keeps the present velocities: add_viscous_change() linearises the shear-thinning viscosity
+  /// there. If `frozen`, its derivative is left out. Does nothing for a constant viscosity.
+  /// Collective.
   void linearise(bool frozen);
 
-  /// Adds the change of the viscous forces if the velocities of linearise() change by those of the
-  /// atoms.
+  /// Adds to atom->f by how much the viscous forces change when the velocities kept by linearise()
+  /// change by atom->v. Linear in atom->v. Collective.
   void add_viscous_change();
 
   /// Power dissipated in all cells. Collective.
@@ -82,15 +86,14 @@ class CellMembranes : public StepPart, protected Pointers {
 
   bool keeps_volume() const { return settings_.volume_kept; }
 
-  /// Takes from the atoms' velocities what would change the volumes of their cells:
-  ///   sum_i dV/dx_i . v_i = (V_rest - V) / (10 dt) + dV_rest/dt,
-  /// by a multiple of the volume's gradient, which changes neither a cell's velocity nor its
-  /// rotation. An evaluation at the start of a step (`new_step`) sets the first rate, which the
-  /// stages after it keep. In the middle of a step (`mid_step`) the rest volume is that of the
-  /// middle. Collective.
+  /// Changes the atoms' velocities by a multiple of the volume's gradient such that the volume V of
+  /// each cell obeys   sum_i dV/dx_i . v_i = (V_rest - V) / (10 dt) + dV_rest/dt. This changes
+  /// neither the velocity of a cell nor its rotation. If `new_step`, the first term is computed
+  /// anew; other evaluations of the same step keep it. If `mid_step`, V_rest is that of the middle
+  /// of the step. Collective.
   void constrain_volume(double dt, bool new_step, bool mid_step);
 
-  void report_to(const std::shared_ptr<CollectiveStop> &driver) override { stop_ = driver; }
+  void report_to(const std::shared_ptr<CollectiveStop> &stop) override { stop_ = stop; }
   std::vector<Section> sections() override { return {{"Membrane", &stopwatch_}}; }
 
   double bytes() const;
@@ -120,7 +123,8 @@ class CellMembranes : public StepPart, protected Pointers {
   void set_current_cell(const LocalCells::Cell &cell);
   void store_size(std::size_t c);
   void measure_shared_cells();
-  void check(const LocalCells::Cell &cell, double volume);
+  void check_mesh(const LocalCells::Cell &cell);
+  void check_volume(const LocalCells::Cell &cell, double volume);
   void add_elastic_forces(const LocalCells::Cell &cell, const rbc::AreaVolume &size);
   void gather_velocities(const LocalCells::Cell &cell);
   void share_velocities();
@@ -139,7 +143,7 @@ class MembraneOwner {
   ~MembraneOwner() = default;
 };
 
-/// Of all fixes, in the order in which they are defined.
+/// The membranes of all fixes rbc/membrane, in the order of their definition.
 std::vector<CellMembranes *> all_cell_membranes(LAMMPS *lmp);
 
 }    // namespace LAMMPS_NS

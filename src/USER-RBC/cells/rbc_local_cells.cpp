@@ -135,10 +135,10 @@ void LocalCells::update_ownership(bool bending)
     if (owned_count[c] == size) continue;
 
     is_part[c] = 1;
-    find_neighbours(at, first_ids[local[c].index], owned, bending ? 2 : 1);
+    find_neighbors(at, first_ids[local[c].index], owned, bending ? 2 : 1);
     parts.push_back(rbc::CellElements::part(shape, std::move(owned), bending));
     local[c].elements = &parts.back();
-    check_neighbours(c, bending ? 3 : 2, stop);
+    check_neighbors(c, bending ? 3 : 2, stop);
   }
   stop.check();
   find_shared(is_part);
@@ -146,7 +146,8 @@ void LocalCells::update_ownership(bool bending)
 }
 
 /* ----------------------------------------------------------------------
-   LAMMPS deletes atoms that leave a box that is not periodic
+   Ends the run if vertices are missing: LAMMPS deletes atoms that leave a box through a side that
+   is not periodic.
 ------------------------------------------------------------------------- */
 
 void LocalCells::check_complete(const std::vector<int> &owned_count) const
@@ -176,14 +177,14 @@ void LocalCells::check_complete(const std::vector<int> &owned_count) const
                "{}: lost {:.0f} of {} vertices, which left the simulation box, at step {}: cell "
                "with molecule ID {} "
                "near ({:.6g}, {:.6g}, {:.6g})",
-               style, shape.vertex_count() - s[0], shape.vertex_count(), update->ntimestep, molecule_ids[n],
-               s[1] / s[0], s[2] / s[0], s[3] / s[0]);
+               style, shape.vertex_count() - s[0], shape.vertex_count(), update->ntimestep,
+               molecule_ids[n], s[1] / s[0], s[2] / s[0], s[3] / s[0]);
   }
 }
 
 /* ----------------------------------------------------------------------
-   positions of all atoms here, of ghosts too: which image of a vertex is the cell's own does not
-   depend on how far it is
+   Fills unwrapped with the unwrapped positions of all atoms and ghosts here. From them, not from
+   distances, the image of a ghost is found that belongs to the cell, however far it is.
 ------------------------------------------------------------------------- */
 
 void LocalCells::unwrap()
@@ -203,8 +204,8 @@ void LocalCells::unwrap()
    vertices of other ranks within some rings of the owned ones
 ------------------------------------------------------------------------- */
 
-void LocalCells::find_neighbours(std::size_t at, tagint first, const std::vector<char> &owned,
-                                 int rings)
+void LocalCells::find_neighbors(std::size_t at, tagint first, const std::vector<char> &owned,
+                                int rings)
 {
   std::vector<int> front;
   for (int v = 0; v < shape.vertex_count(); ++v)
@@ -227,10 +228,11 @@ void LocalCells::find_neighbours(std::size_t at, tagint first, const std::vector
 }
 
 /* ----------------------------------------------------------------------
-   LAMMPS may not have sent all of them here
+   Reports a vertex that forces on the cell's owned vertices need and that is no ghost here: the
+   ghost cutoff is too short.
 ------------------------------------------------------------------------- */
 
-void LocalCells::check_neighbours(std::size_t c, int rings, CollectiveStop &stop) const
+void LocalCells::check_neighbors(std::size_t c, int rings, CollectiveStop &stop) const
 {
   const int *const known = local[c].atom;
   int owned = -1;
@@ -242,7 +244,7 @@ void LocalCells::check_neighbours(std::size_t c, int rings, CollectiveStop &stop
       if (known[v] < 0)
         return stop.report(fmt::format(
             "{}: ghost cutoff {} is too short at step {} for the cell with molecule ID {} near "
-            "({:.6g}, {:.6g}, {:.6g}): a neighbour of its vertices is unknown; its edges are "
+            "({:.6g}, {:.6g}, {:.6g}): a neighbor of its vertices is unknown; its edges are "
             "stretched too far, or use comm_modify cutoff (at rest at least {})",
             style, comm->get_comm_cutoff(), update->ntimestep, molecule_ids[local[c].index],
             near[0], near[1], near[2], rings * shape.longest_edge));

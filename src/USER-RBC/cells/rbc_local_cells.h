@@ -32,7 +32,7 @@ class LocalCells : protected Pointers {
   void identify();
 
   /// Collective, after atoms migrated: finds which vertices this rank holds. With `bending` the
-  /// forces on a vertex reach its neighbours' neighbours.
+  /// forces on a vertex reach its neighbors' neighbors.
   void update_ownership(bool bending);
 
   const std::vector<tagint> &molecules() const { return molecule_ids; }
@@ -40,10 +40,12 @@ class LocalCells : protected Pointers {
   const std::vector<tagint> &first_atoms() const { return first_ids; }
   const std::vector<Cell> &cells() const { return local; }
 
-  /// Positions of the cell's vertices from its origin.
+  /// Writes to x, an entry for each vertex of the template, the positions relative to cell.origin.
+  /// Entries of vertices that this rank does not know are left alone.
   void gather(const Cell &cell, std::vector<rbc::Vec3> &x) const;
 
-  /// Sums `values` (`width` numbers for each of cells()) over ranks, for the cells that are shared.
+  /// Collective: sums `values`, `width` numbers for each of cells(), over ranks for the cells that
+  /// several ranks share. The values of other cells stay as they are.
   void sum_shared(std::vector<double> &values, int width);
 
  private:
@@ -66,8 +68,8 @@ class LocalCells : protected Pointers {
 
   void check_complete(const std::vector<int> &owned_count) const;
   void unwrap();
-  void find_neighbours(std::size_t at, tagint first, const std::vector<char> &owned, int rings);
-  void check_neighbours(std::size_t c, int rings, CollectiveStop &stop) const;
+  void find_neighbors(std::size_t at, tagint first, const std::vector<char> &owned, int rings);
+  void check_neighbors(std::size_t c, int rings, CollectiveStop &stop) const;
   void find_shared(const std::vector<char> &is_part);
   void set_origins();
   rbc::Vec3 image_shift(int i) const;

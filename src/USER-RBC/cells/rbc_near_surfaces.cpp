@@ -15,8 +15,8 @@ using namespace LAMMPS_NS;
 
 static constexpr double STRETCH = 1.5;
 
-// the finder looks no further than this part of what ghosts allow, and once more on the way: lists
-// are shorter by far
+// Part of the slack within which the finder lists triangles. Its lists are much shorter than those
+// for the whole slack; it makes them anew when atoms have moved that far.
 
 static constexpr double FINER = 0.25;
 
@@ -102,8 +102,8 @@ double NearSurfaces::area(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   ghosts are there up to the ghost cutoff; from an owned vertex it must reach all corners of
-   triangles near it
+   Returns the longest edge with which all corners of triangles near an owned vertex are still
+   within the ghost cutoff. It is an error if that is below longest_edge().
 ------------------------------------------------------------------------- */
 
 double NearSurfaces::longest_known_edge(double range, double slack) const

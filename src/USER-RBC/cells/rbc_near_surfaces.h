@@ -30,15 +30,17 @@ class NearSurfaces : protected Pointers {
   /// Collective, at the start of a run: finds the cells.
   void init();
 
-  /// Triangles' edges may be as long: half as long again as in the cells at rest.
+  /// Largest length of an edge that is allowed: 1.5 times that of the longest edge of the cells at
+  /// rest.
   double longest_edge() const;
 
   /// An error if ghosts do not reach far enough for build().
   void check_ghosts(double range, double slack) const { longest_known_edge(range, slack); }
 
-  /// Collective, with ghosts at their places: finds what comes nearer than `range` before atoms
-  /// moved by slack / 2. Since ghosts were chosen they may have moved by stale / 2. The ghost
-  /// cutoff must be the sum of range, slack, stale and longest_edge() at least.
+  /// Collective; ghosts must have their positions. Lists all pairs of a vertex and a triangle that
+  /// can come nearer than `range` before an atom has moved by slack / 2. `stale`: atoms have moved
+  /// by up to stale / 2 since LAMMPS chose the ghosts. The ghost cutoff must be at least range +
+  /// slack + stale + longest_edge(). All are lengths.
   void build(double range, double slack, double stale = 0);
 
   /// Collective, for positions that ghosts have too: one contact for each owned vertex and cell
@@ -51,7 +53,7 @@ class NearSurfaces : protected Pointers {
   double area(int i) const;
 
   /// Who ends the run, or takes a step again, for what is found here.
-  void report_to(const std::shared_ptr<CollectiveStop> &driver) { stop = driver; }
+  void report_to(const std::shared_ptr<CollectiveStop> &stop_in) { stop = stop_in; }
 
   double bytes() const;
 
@@ -78,7 +80,7 @@ class NearSurfaces : protected Pointers {
   std::vector<rbc::NearTriangles::Surface> molecules;    ///< of vertices; other atoms see nothing
   rbc::HeldPositions built;                              ///< positions at build()
   double own_patch = 0;                                  ///< 0: vertices do not see their own cells
-  double allowed = 0;                                    ///< displacement since then
+  double allowed = 0;                                    ///< displacement of an atom since build()
 
   const Cell *cell_of(int i) const;
   const Shape *shape_of(int i) const;

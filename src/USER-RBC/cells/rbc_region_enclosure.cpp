@@ -23,7 +23,8 @@ bool RegionEnclosure::region_contains(const Vec3 &x) const
 }
 
 /* ----------------------------------------------------------------------
-   of a point outside, as unions of regions ask for it
+   Returns how many contacts a point outside has with the surface within `distance`. LAMMPS finds
+   them from the inside of the inverted region, so `interior` is inverted for the call.
 ------------------------------------------------------------------------- */
 
 int RegionEnclosure::contacts_outside(const Vec3 &x, double distance) const
@@ -44,7 +45,8 @@ bool RegionEnclosure::contains(const Vec3 &x) const
 }
 
 /* ----------------------------------------------------------------------
-   of all parts of the surface that are as near as the nearest, but for `distance`
+   Returns the mean inward normal of all parts of the surface whose distance is at most that of the
+   nearest plus `distance`; zero if there is none.
 ------------------------------------------------------------------------- */
 
 Vec3 RegionEnclosure::inward(const Vec3 &x, double distance) const

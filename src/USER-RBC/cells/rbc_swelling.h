@@ -23,8 +23,9 @@ class Swelling {
   double middle() const { return 0.5 * (state.before + state.now); }
   double change() const { return state.now - state.before; }
 
-  /// Collective: evaluates a variable, once a step and timestep. What it jumped by between runs is
-  /// no change within a step.
+  /// Collective: evaluates the factor if it is a variable, unless that was done for this step and
+  /// timestep. The value of the step before becomes `before`. If steps were skipped, or the value
+  /// jumped between runs, `before` is the new value: no change within a step.
   void update(LAMMPS *lmp, bool new_run)
   {
     const auto step = static_cast<double>(lmp->update->ntimestep);

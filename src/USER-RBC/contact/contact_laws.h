@@ -20,7 +20,10 @@ namespace rbc {
 ///                            not overlap, in words for an error message
 ///   force(h), energy(h)      of a single tip against a flat, for pair_write
 ///   per_area(h)              the same per area of a surface covered by tips
-/// The last three may be asked for an overlap above detachment_overlap() only.
+/// The last three may be asked for an overlap above detachment_overlap() only. Forces are positive
+/// where they repel; an energy is the integral of the force over the overlap, 0 at detachment.
+/// Parameters are known by their names: a name that two laws share is one parameter of a pair of
+/// types in restart files and for fix adapt.
 using ContactLaw = std::variant<JkrContact, HertzContact>;
 
 }    // namespace rbc

@@ -7,8 +7,9 @@
 
 namespace LAMMPS_NS {
 
-/// Vectors of the markers in LAMMPS's fix STORE/ATOM, which keeps them while atoms migrate and in
-/// restart files. A column of steps known comes first where an integrator asks for it.
+/// Keeps vectors of the markers in LAMMPS's fix STORE/ATOM, which moves them with the atoms and
+/// writes them to restart files. Columns: number of known steps (only if the integrator counts
+/// them), then three for each vector.
 class AtomStore : public rbc::PointStore {
  public:
   explicit AtomStore(const ImmersedMarkers &markers) : markers_(markers) {}

@@ -49,8 +49,10 @@ double DrivenFlow::smallest_spacing() const
 }
 
 /* ----------------------------------------------------------------------
-   without vertices none; a vertex leaves its subdomain by half the skin before atoms migrate and
-   by half a cell more within a step, and cells belong to the subdomain of their centres
+   Ghost layers of the fluid grid. None are needed without vertices. A vertex leaves the subdomain
+   of its rank by up to half the skin before atoms migrate, and by more within a step; besides, a
+   cell belongs to the subdomain of its centre, not of all of its volume. cells_per_step_ allows for
+   both.
 ------------------------------------------------------------------------- */
 
 int DrivenFlow::layers_needed() const
@@ -130,7 +132,7 @@ void DrivenFlow::take_demands(const std::vector<FluidClient *> &clients,
 
 void DrivenFlow::connect_walls(const std::vector<WallGroup *> &groups)
 {
-  balanced_ = false;
+  free_mean_ = false;
   if (groups.empty()) {
     walls_.reset();
     if (!has_inertia() && settings_.free_mean)
@@ -142,9 +144,9 @@ void DrivenFlow::connect_walls(const std::vector<WallGroup *> &groups)
   }
   if (has_inertia())
     error->all(FLERR, "{} needs {} inertia none", groups.front()->style(), inside_.style());
-  balanced_ = !settings_.plates && !settings_.prescribed_mean;
+  free_mean_ = !settings_.plates && !settings_.prescribed_mean;
   if (!walls_) walls_ = std::make_unique<RigidWalls>(lmp);
-  walls_->connect(groups, balanced_);
+  walls_->connect(groups, free_mean_);
 }
 
 void DrivenFlow::warn_of_idle_forcing() const
@@ -168,12 +170,13 @@ void DrivenFlow::warn_of_idle_forcing() const
 
 bool DrivenFlow::holds_box_mean() const
 {
-  return !settings_.plates && settings_.equations.hold_mean && !balanced_;
+  return !settings_.plates && settings_.equations.hold_mean && !free_mean_;
 }
 
 /* ----------------------------------------------------------------------
-   the first control input is the body force that gives Poiseuille flow in a round tube of the
-   vessel's mean cross-section, slow enough for atoms in throats
+   The control first probes the response with the body force that gives Poiseuille flow in a round
+   tube of the vessel's mean cross-section. The probe is so weak that even where the vessel is
+   narrow no atom crosses too many cells in a step.
 ------------------------------------------------------------------------- */
 
 void DrivenFlow::start_control()
@@ -210,7 +213,8 @@ void DrivenFlow::set_time_now()
 
 void DrivenFlow::begin_step(bool again)
 {
-  if (controls_flow_rate() && !again) forcing_.measured(mean_inside()[forcing_.held_direction()]);
+  if (controls_flow_rate() && !again)
+    forcing_.set_measured(mean_inside()[forcing_.held_direction()]);
   forcing_.begin_step(again);
   if (walls_) walls_->begin_step(again);
 }
@@ -229,7 +233,7 @@ void DrivenFlow::place_walls(double fraction)
 
 bool DrivenFlow::correct_flow_rate()
 {
-  forcing_.measured(mean_inside()[forcing_.held_direction()]);
+  forcing_.set_measured(mean_inside()[forcing_.held_direction()]);
   set_time_now();
   return forcing_.probing();
 }
@@ -279,7 +283,7 @@ void DrivenFlow::solve(CollectiveStop &stop, bool with_walls)
 
   if (walls) {
     walls_->enforce(*flow_);
-    if (balanced_) uniform.mean = walls_->mean();
+    if (free_mean_) uniform.mean = walls_->mean();
   }
   solved_forcing_ = uniform;
   if (!has_inertia()) changed();
@@ -302,7 +306,7 @@ void DrivenFlow::spread_walls(fluid::Forcing &uniform, CollectiveStop &stop)
   }
   const double end = update->atime + (update->ntimestep - update->atimestep) * update->dt;
   walls_->spread(*flow_, end - (1 - fraction_) * update->dt, others, stop);
-  if (balanced_) uniform.mean = walls_->mean();
+  if (free_mean_) uniform.mean = walls_->mean();
 }
 
 /* ---------------------------------------------------------------------- */

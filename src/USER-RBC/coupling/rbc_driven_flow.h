@@ -42,7 +42,7 @@ class DrivenFlow : public StepPart, protected Pointers {
   /// with what it was.
   void build();
 
-  /// A client advances the flow.
+  /// Whether a fix rbc/ib advances this flow. Otherwise fix rbc/fluid advances it.
   bool is_driven() const { return driven_; }
   RigidWalls *walls() { return walls_.get(); }
   const RigidWalls *walls() const { return walls_.get(); }
@@ -56,16 +56,23 @@ class DrivenFlow : public StepPart, protected Pointers {
   /// may jump between runs.
   void set_time_at_setup();
 
-  /// To the end of the step that LAMMPS is at.
+  /// Evaluates the forcing at the end of LAMMPS's present step and makes it the present forcing.
+  /// Where a flow rate is held and was measured since, this also adjusts what drives it. Does not
+  /// move walls.
   void set_time_now();
 
-  /// The step that begins; `again` if it is made once more, with another timestep.
+  /// Evaluates forcing and velocities of walls at the end of the step that begins. `again`: the
+  /// same step is made once more with another timestep; walls return to where they were at its
+  /// start. Where a flow rate is held, that of the last step is measured for the control, unless
+  /// `again`.
   void begin_step(bool again);
 
-  /// Forcing and walls at a fraction of the step that has begun.
+  /// Sets the forcing to its value at `fraction` of the step begun (0 start, 1 end), linear between
+  /// the ends, and moves the walls there.
   void set_time(double fraction);
 
-  /// Walls alone at a fraction of the step.
+  /// Moves the atoms of walls to where they are at `fraction` of the step; the forcing stays as it
+  /// is.
   void place_walls(double fraction);
 
   /// The mean velocity inside a vessel is held. correct_flow_rate() adjusts the forcing by what the
@@ -81,9 +88,10 @@ class DrivenFlow : public StepPart, protected Pointers {
   /// layers, or -1.
   int spread(const fluid::MarkerSet &markers, const double *force, double factor);
 
-  /// Solves for the flow of all forces, forcing and walls, and what was reported to `stop` ends the
-  /// run before. With inertia it starts a step of the fluid, whose velocity is then that of the
-  /// middle. Without walls the velocity is as if they were not there.
+  /// Computes the velocity of the fluid from the forces spread, the forcing and, if `with_walls`,
+  /// the walls. Checks `stop` first: an error reported there ends the run, or throws FailedTrial
+  /// while a step is tried. With inertia this starts a step of the fluid, and the velocity is that
+  /// of the middle of the step.
   void solve(CollectiveStop &stop, bool with_walls = true);
 
   void interpolate(const fluid::MarkerSet &markers, double *velocity);
@@ -100,7 +108,9 @@ class DrivenFlow : public StepPart, protected Pointers {
   /// With inertia: the end of the fluid's step. Without: nothing.
   void finish_step();
 
-  /// The flow was changed by others, who used flow().
+  /// Call after the flow was changed through flow(): measures of it are computed anew when asked
+  /// for. With inertia convective this also checks how many cells the fluid crosses in a step,
+  /// which is collective and may end the run.
   void changed();
 
   // output; collective
@@ -126,7 +136,7 @@ class DrivenFlow : public StepPart, protected Pointers {
   /// Messages, bytes and memory since count_from_here(), as a line of text.
   std::string costs() const;
 
-  void report_to(const std::shared_ptr<CollectiveStop> & /*driver*/) override {}
+  void report_to(const std::shared_ptr<CollectiveStop> & /*stop*/) override {}
   std::vector<Section> sections() override;
 
  private:
@@ -143,7 +153,7 @@ class DrivenFlow : public StepPart, protected Pointers {
   bool driven_ = false, sheets_ = false;
   double cells_per_step_ = 1;
   int ghost_layers_ = -1;
-  bool balanced_ = false;    ///< the mean velocity follows from the forces of walls
+  bool free_mean_ = false;    ///< the mean velocity follows from the forces of walls
 
   // time
   double fraction_ = 1;              ///< of the step
@@ -151,7 +161,7 @@ class DrivenFlow : public StepPart, protected Pointers {
   fluid::Forcing solved_forcing_;    ///< of the last solve: what acts everywhere in the grid
 
   // an evaluation
-  std::array<double, 3> marker_force_{};    ///< sum of this rank's, where walls balance it
+  std::array<double, 3> marker_force_{};    ///< sum spread on this rank; kept with walls
 
   bigint version_ = 0, diagnosed_version_ = -1;    ///< of the velocity
   fluid::FlowDiagnostics diagnostics_;

@@ -3,7 +3,9 @@
 
 namespace LAMMPS_NS {
 
-/// Whether an evaluation of velocities is one at the start of a step or one within it.
+/// What the velocities of an evaluation are for. `start`: the next step starts from them; they are
+/// computed at setup and at the end of each step. `within`: the integrator asks for them inside a
+/// step, the estimate of the spectrum and the error estimate at the end of the step included.
 enum class EvaluationStage { start, within };
 
 }    // namespace LAMMPS_NS

@@ -30,7 +30,7 @@ void FlowForcing::start_control(bool by_mean, double probe)
   control_.probe(probe);
 }
 
-void FlowForcing::measured(double inside_velocity)
+void FlowForcing::set_measured(double inside_velocity)
 {
   measured_ = inside_velocity;
   is_measured_ = true;

@@ -22,18 +22,21 @@ class FlowForcing : protected Pointers {
 
   Vector lower, upper, body, mean;
 
-  /// Holds the mean velocity inside a vessel along a direction, by the body force or, where the
-  /// mean velocity of the whole box is held, by that, in place of what is given for it.
+  /// From now on the component `direction` (0, 1, 2) of the mean velocity inside the vessel is held
+  /// at `velocity`. The control sets that component of the body force or, in a box whose mean
+  /// velocity is held, of this mean velocity.
   void hold_inside(int direction, const NumberOrVariable &velocity);
   int held_direction() const { return held_direction_; }
 
-  /// At the start of a run: the response of the velocity is found anew. The probe is of an input of
-  /// about that size.
+  /// Call at the start of a run: the control finds anew how the mean velocity inside responds.
+  /// `by_mean`: by the mean velocity of the box, otherwise by the body force. `probe`: the input
+  /// (velocity or force density) that is tried for this; not 0.
   void start_control(bool by_mean, double probe);
   bool probing() const { return control_.probing(); }
 
-  /// The velocity that the forcing has given.
-  void measured(double inside_velocity);
+  /// Tells the control which mean velocity inside the present forcing has given; used by the next
+  /// evaluate().
+  void set_measured(double inside_velocity);
 
   bool varies() const;
   bool is_known() const { return known_; }
@@ -44,7 +47,9 @@ class FlowForcing : protected Pointers {
   /// Collective: evaluates variables, as of the step that LAMMPS is at.
   const fluid::Forcing &evaluate();
 
-  /// A step that is taken again may be shorter.
+  /// Takes the forcing at the end of the last step for the start of this one, and evaluates it at
+  /// the end of this one. `again`: keeps the start, because the same step is made once more with
+  /// another timestep. Collective.
   void begin_step(bool again);
 
   fluid::Forcing at(double fraction) const;

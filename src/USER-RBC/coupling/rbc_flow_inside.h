@@ -18,7 +18,8 @@ class FlowInside : protected Pointers {
 
   const std::string &style() const { return style_; }
 
-  /// The region, or the decomposition of the flow, may be another.
+  /// Call when the region or the decomposition of the flow may have changed: the inside is found
+  /// anew when next asked for.
   void forget()
   {
     interior_.reset();
@@ -28,10 +29,12 @@ class FlowInside : protected Pointers {
   /// Collective, like what follows.
   double volume(const fluid::Flow &flow);
 
-  /// Computed once for each version of the flow. Not for the whole box.
+  /// Mean velocity of the fluid inside, computed once for each `version`. There must be a region.
+  /// Collective.
   const fluid::Real3 &mean_velocity(fluid::Flow &flow, bigint version);
 
-  /// Null for the whole box.
+  /// The share of each cell that lies inside, found at the first call; null if no region was given.
+  /// It is an error if the region does not exist, moves, or is empty.
   fluid::Interior *find(const fluid::Flow &flow);
 
  private:

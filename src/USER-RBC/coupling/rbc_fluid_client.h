@@ -31,7 +31,7 @@ class FluidClient {
   ~FluidClient() = default;
 };
 
-/// Of all fixes, in the order in which they are defined.
+/// All fixes that are clients of a fluid, in the order of their definition.
 std::vector<FluidClient *> fluid_clients(class Modify *modify);
 
 }    // namespace LAMMPS_NS

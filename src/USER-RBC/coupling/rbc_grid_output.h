@@ -27,7 +27,7 @@ class GridOutput : protected Pointers {
   void *get(int index, fluid::Flow &flow, const std::array<double, 3> &uniform_force,
             bigint version);
 
-  /// Before the flow gets another brick.
+  /// Frees all arrays; call before the flow's brick changes.
   void free();
 
   double bytes() const;

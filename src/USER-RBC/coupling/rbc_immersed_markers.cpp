@@ -99,6 +99,7 @@ std::int64_t ImmersedMarkers::label(std::size_t point) const
 void ImmersedMarkers::velocity(const Numbers &x, double fraction, Numbers &v)
 {
   store(x, atom->x);
+  // Membranes at rest exert no viscous forces: the estimate is then for elastic forces alone.
   if (estimating_spectrum_) std::fill(v.begin(), v.end(), 0.0);
   store(v, atom->v);
   check_positions();
@@ -109,8 +110,10 @@ void ImmersedMarkers::velocity(const Numbers &x, double fraction, Numbers &v)
 }
 
 /* ----------------------------------------------------------------------
-   with inertia the atoms' velocities are those in the middle of the last step, and only a step of
-   the fluid tells more (fluid velocities at the end of a step may ring, see Crank-Nicolson)
+   With inertia the atoms hold the velocities of the middle of the last step. Those at the start of
+   this one could be interpolated from the fluid, but the Crank-Nicolson method lets the velocities
+   at the ends of steps oscillate. So a step of the fluid is made, whose middle gives the
+   velocities.
 ------------------------------------------------------------------------- */
 
 void ImmersedMarkers::velocity_at_start(const Numbers & /*x*/, Numbers &v)
@@ -125,7 +128,7 @@ void ImmersedMarkers::velocity_at_start(const Numbers & /*x*/, Numbers &v)
 
 void ImmersedMarkers::velocities_from_forces(Stage stage)
 {
-  if (viscosity_.is_any() && !estimating_spectrum_)
+  if (viscosity_.has_viscous_membranes() && !estimating_spectrum_)
     viscosity_.solve(stage);
   else
     velocities_of_flow(stage);
@@ -154,7 +157,8 @@ void ImmersedMarkers::interpolate()
 }
 
 /* ----------------------------------------------------------------------
-   with inertia the one evaluation of a step is in its middle
+   With inertia a step has a single evaluation, in its middle: it counts as the first of a step, and
+   volumes are those wanted in the middle.
 ------------------------------------------------------------------------- */
 
 void ImmersedMarkers::constrain_volume(Stage stage)
@@ -204,7 +208,7 @@ void ImmersedMarkers::recompute_forces()
 }
 
 /* ----------------------------------------------------------------------
-   LAMMPS would delete what is beyond a plate when atoms migrate
+   LAMMPS would delete an atom beyond a plate when atoms migrate; this finds it before.
 ------------------------------------------------------------------------- */
 
 void ImmersedMarkers::check_positions()
@@ -245,7 +249,7 @@ void ImmersedMarkers::check_velocities(Stage stage)
 void ImmersedMarkers::report_too_fast(Stage stage)
 {
   const bool any_speed =
-      estimating_spectrum_ || (settings_.timestep_follows && stage == Stage::start);
+      estimating_spectrum_ || (settings_.any_speed_at_start && stage == Stage::start);
   const double fastest = settings_.courant * flow_->smallest_spacing() / update->dt;
   double **const v = atom->v;
   for (int i : members_) {

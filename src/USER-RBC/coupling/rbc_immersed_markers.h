@@ -25,7 +25,7 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
   struct Settings {
     fluid::KernelKind kernel = fluid::KernelKind::peskin4;
     double courant = 1;    ///< fluid cells that a marker may cross in a step
-    bool timestep_follows =
+    bool any_speed_at_start =
         false;    ///< from the velocities at the start of a step, which may be of any size
   };
 
@@ -37,24 +37,29 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
   void start_run(DrivenFlow *flow, const std::vector<CellMembranes *> &membranes,
                  fluid::MarkerKind kind);
 
-  /// Viscosity of the membranes, solved for implicitly. Fluid with inertia: masses of the markers,
-  /// or null.
+  /// Solver for the viscous forces of the membranes.
   ImplicitViscosity &viscosity() { return viscosity_; }
+
+  /// Gives the markers masses (fluid with inertia, scheme direct); null: they have none.
   void set_masses(MassiveMarkers *masses) { masses_ = masses; }
 
-  /// Who checks what is reported.
+  /// Collects errors of this fix, its membranes and pair styles; its check() ends the run or
+  /// rejects the step.
   const std::shared_ptr<CollectiveStop> &stop() const { return stop_; }
 
-  /// After atoms migrated: finds this rank's.
+  /// Finds the local indices of the group's atoms on this rank; call after atoms migrated. Not
+  /// collective.
   void find_members();
   const std::vector<int> &members() const { return members_; }
   bigint count() const;
 
-  /// Three columns of a per-atom array, of the markers.
+  /// Copies columns `column` to `column` + 2 of a per-atom array into `numbers`, three for each of
+  /// members(), or back. Not collective.
   void load(double **array, rbc::Numbers &numbers, int column = 0) const;
   void store(const rbc::Numbers &numbers, double **array, int column = 0) const;
 
-  // of rbc::Motion; `velocity` leaves the atoms at `x`
+  // Functions of rbc::Motion. velocity() works on LAMMPS's own atoms: afterwards atom->x is `x`,
+  // atom->v is `v`, atom->f are the forces there, and walls stand at their places at `fraction`.
 
   void velocity(const rbc::Numbers &x, double fraction, rbc::Numbers &v) override;
   void velocity_at_start(const rbc::Numbers &x, rbc::Numbers &v) override;
@@ -64,11 +69,13 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
 
   using Stage = EvaluationStage;
 
-  /// Velocities from the forces that the atoms hold, which may depend on the velocities that they
-  /// hold.
+  /// Replaces atom->v of the markers by the velocities that the flow of atom->f gives them. Checks
+  /// them, and with fluid inertia ends the fluid's step. If membranes are viscous, atom->f must
+  /// contain the viscous forces at the atom->v of the call. Collective.
   void velocities_from_forces(Stage stage);
 
-  /// The same without viscosity and checks: what the flow of the forces gives.
+  /// Does the same, but takes all forces as given: no implicit solution for viscous forces, no
+  /// check of the speeds, no end of the fluid's step.
   void velocities_of_flow(Stage stage);
 
   void constrain_volume(Stage stage);
@@ -77,29 +84,35 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
   /// the end of a step.
   void recompute_forces();
 
-  /// The flow's velocity at the markers, as it is.
+  /// Sets atom->v of the markers to the present velocity of the flow, corrected so that cells keep
+  /// their volumes. No solve.
   void interpolate();
 
-  /// Velocities that the forces which the atoms hold would add, with a factor. `response` has a row
-  /// for each atom here.
+  /// Computes the velocities that further forces `factor` * atom->f on the markers would give them,
+  /// walls left out. `response` becomes three numbers for each of the nlocal atoms, valid for
+  /// members(). Costs one solve of the flow.
   void apply_mobility(double factor, rbc::Numbers &response);
 
   fluid::MarkerSet set() const;
   double fastest() const;
 
-  /// Time in which the fastest marker crosses half of what it may.
+  /// Timestep in which the fastest marker crosses half of `courant` cells; infinite if none moves.
+  /// Collective.
   double longest_step() const;
 
-  /// An error if a marker crosses too much in a step, or has no velocity. Markers beyond a plate
-  /// are reported only.
+  /// Reports a marker that would cross more than `courant` cells in a step, or whose velocity is
+  /// not a number, and checks stop(): collective, ends the run or throws FailedTrial.
   void check_velocities(Stage stage);
+
+  /// Reports a marker beyond a plate to stop(), which must be checked later. Not collective.
   void check_positions();
 
-  /// What is wrong with an atom; ends the run at the next check of stop().
+  /// Reports that `what` is wrong with local atom i. The next check of stop() ends the run or
+  /// rejects the step. Not collective.
   void report_outside(int i);
   void report(int i, const std::string &what);
 
-  void report_to(const std::shared_ptr<CollectiveStop> &driver) override { stop_ = driver; }
+  void report_to(const std::shared_ptr<CollectiveStop> &stop) override { stop_ = stop; }
   std::vector<Section> sections() override { return {{"Exchange", &exchanging_}}; }
 
   std::size_t bytes() const;

@@ -17,7 +17,7 @@ static constexpr int MOST_ROUNDS = 20;
 
 /* ---------------------------------------------------------------------- */
 
-void ImplicitViscosity::choose(double tolerance, int max_iterations)
+void ImplicitViscosity::set_limits(double tolerance, int max_iterations)
 {
   tolerance_ = tolerance;
   gmres_.max_iterations = max_iterations;
@@ -32,7 +32,8 @@ void ImplicitViscosity::start_run(DrivenFlow *flow, const std::vector<CellMembra
 }
 
 /* ----------------------------------------------------------------------
-   walls are left out of the mobility of the markers, so that a linear solve is not the end
+   The mobility of the markers leaves out the walls and takes Z as constant. Where there are walls,
+   or Z depends on the velocities, one linear solve does not suffice.
 ------------------------------------------------------------------------- */
 
 bool ImplicitViscosity::needs_rounds() const
@@ -75,7 +76,8 @@ void ImplicitViscosity::solve(EvaluationStage stage)
 }
 
 /* ----------------------------------------------------------------------
-   what the velocities of the flow differ by from those guessed; returns its length
+   Stores in residual_ the velocities that the flow gave less those guessed, and returns the length
+   of this vector over all ranks.
 ------------------------------------------------------------------------- */
 
 double ImplicitViscosity::find_residual()
@@ -90,17 +92,18 @@ double ImplicitViscosity::solve_linear(double tolerance)
   correction_.assign(guess_.size(), 0.0);
   return gmres_.solve(
       [this](const Numbers &p, Numbers &result) {
-        resistance(p, result);
+        viscous_response(p, result);
         for (std::size_t i = 0; i < p.size(); ++i) result[i] += p[i];
       },
       markers_, residual_, tolerance, correction_);
 }
 
 /* ----------------------------------------------------------------------
-   M Z p: minus the velocities that the membranes' viscous forces cause if the atoms move with p
+   Computes v = M Z p: minus the velocities that the viscous forces of the membranes cause if the
+   atoms move with p. Overwrites atom->v and atom->f. Costs one solve of the flow.
 ------------------------------------------------------------------------- */
 
-void ImplicitViscosity::resistance(const Numbers &p, Numbers &v)
+void ImplicitViscosity::viscous_response(const Numbers &p, Numbers &v)
 {
   v.assign(p.size(), 0.0);
   markers_.store(p, atom->v);
@@ -113,7 +116,9 @@ void ImplicitViscosity::resistance(const Numbers &p, Numbers &v)
 }
 
 /* ----------------------------------------------------------------------
-   adds the correction to the velocities guessed, and what follows from it to the forces
+   Adds the correction to guess_, and the change of the viscous forces that it causes to atom->f.
+   Where the viscosity is constant, this change is the viscous force of the correction. Where it
+   thins, it is the force at the new guess less that at the old one.
 ------------------------------------------------------------------------- */
 
 void ImplicitViscosity::correct_forces()

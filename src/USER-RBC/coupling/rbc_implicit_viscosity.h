@@ -14,25 +14,28 @@ class CellMembranes;
 class DrivenFlow;
 class ImmersedMarkers;
 
-/// Velocities of markers in membranes with viscosity. The forces F were computed with the
-/// velocities v that the atoms had; the velocities V that are sought obey
-///   (1 + M Z) V = M (F + Z v) + U,
-/// with Z the resistance of the membranes, M the mobility of the markers and U the flow of all
-/// else. Where Z depends on V this is Newton's method: Z is that of small changes of V, and what is
-/// left goes into the next round. A round that gains little is followed by one with the viscosity
-/// frozen, which always gains (Kacanov's method).
+/// Solves for the velocities of markers in viscous membranes: they depend on viscous forces, which
+/// depend on these velocities. The forces F of the atoms were computed with old velocities v. The
+/// new velocities V obey (1 + M Z) V = M (F + Z v) + U. Here Z turns velocities into viscous forces
+/// -Z V of the membranes, M turns forces on the markers into their velocities, and U is the
+/// velocity caused by everything else. One round solves this linear system by GMRES and then
+/// evaluates the flow with the corrected forces. One round is enough unless the viscosity depends
+/// on the rate (then Z depends on V, and the rounds are those of Newton's method) or there are
+/// rigid walls (which M leaves out). A round that does not halve the error is followed by one that
+/// takes the viscosity of the present velocities as constant; such a round always lowers the error
+/// (Kacanov's method).
 class ImplicitViscosity : protected Pointers {
  public:
   ImplicitViscosity(LAMMPS *lmp, ImmersedMarkers &markers) : Pointers(lmp), markers_(markers) {}
 
-  /// Error allowed in the velocities, relative to the fastest marker, and iterations of a linear
-  /// solve.
-  void choose(double tolerance, int max_iterations);
+  /// `tolerance`: root mean square error allowed in the velocities, relative to the fastest marker.
+  /// `max_iterations`: of GMRES in each linear solve.
+  void set_limits(double tolerance, int max_iterations);
 
   /// At the start of a run.
   void start_run(DrivenFlow *flow, const std::vector<CellMembranes *> &membranes);
 
-  bool is_any() const { return !viscous_.empty(); }
+  bool has_viscous_membranes() const { return !viscous_.empty(); }
 
   /// Collective: velocities from the forces and velocities that the atoms hold. An evaluation of
   /// the flow in each round.
@@ -58,7 +61,7 @@ class ImplicitViscosity : protected Pointers {
   bool needs_rounds() const;
   double find_residual();
   double solve_linear(double tolerance);
-  void resistance(const rbc::Numbers &p, rbc::Numbers &v);
+  void viscous_response(const rbc::Numbers &p, rbc::Numbers &v);
   void correct_forces();
 };
 

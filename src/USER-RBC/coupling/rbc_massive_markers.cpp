@@ -13,7 +13,7 @@ using namespace LAMMPS_NS;
 
 /* ---------------------------------------------------------------------- */
 
-void MassiveMarkers::choose(double tolerance, int max_solves)
+void MassiveMarkers::set_limits(double tolerance, int max_solves)
 {
   direct_.tolerance = tolerance;
   direct_.max_solves = max_solves;

@@ -21,22 +21,22 @@ class MassiveMarkers : protected Pointers {
  public:
   explicit MassiveMarkers(LAMMPS *lmp) : Pointers(lmp) {}
 
-  void choose(double tolerance, int max_solves);
+  void set_limits(double tolerance, int max_solves);
 
-  /// Numbers kept for each atom while it migrates and in restart files: velocity in the middle of
-  /// the step before the last, inertial force, what the last velocity misses of what the forces
-  /// would have made it (so that errors below the tolerance do not add up), steps known (0 to 2).
+  /// Columns kept for each atom: OLDER, velocity in the middle of the step before the last;
+  /// INERTIAL, inertial force; MISSING, exact less computed velocity of the last step, which the
+  /// next step adds so that errors below the tolerance do not accumulate; STEPS, number of steps
+  /// known (0 to 2).
   static constexpr int COLUMNS = 10;
   void keep_in(FixStoreAtom *store) { store_ = store; }
 
   /// Takes the place of clear_force .. interpolate of the flow. Collective.
   void couple(ImmersedMarkers &markers, DrivenFlow &flow);
 
-  /// The step's timestep counts in the next one.
+  /// Call at the end of a step: keeps its timestep for the difference formula of the next one.
   void accept(double dt) { last_dt_ = dt; }
 
   double error() const { return error_; }
-  int max_solves() const { return direct_.max_solves; }
   bigint unconverged() const { return unconverged_; }
   void reset_counts() { unconverged_ = 0; }
 

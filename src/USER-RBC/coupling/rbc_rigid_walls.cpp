@@ -21,11 +21,11 @@ void RigidWalls::connect(const std::vector<WallGroup *> &walls, bool free_mean)
     wall->atoms_migrated();
   }
   fluid::RigidSurface::Settings settings = surface_.settings();
-  if (settings.free_mean != free_mean) known_ = false;
+  if (settings.free_mean != free_mean) surface_is_set_ = false;
   settings.tolerance = first()->settings().tolerance;
   settings.max_solves = first()->settings().max_solves;
   settings.free_mean = free_mean;
-  surface_.choose(settings);
+  surface_.set_settings(settings);
 }
 
 bool RigidWalls::has_atom(const WallGroup &wall, int i) const
@@ -78,7 +78,8 @@ void RigidWalls::place(double fraction)
 }
 
 /* ----------------------------------------------------------------------
-   what is known of the markers stays valid as long as all ranks hold the same atoms
+   Updates surface_ if wall atoms moved, or sets it up anew if they changed ranks. Preconditioner
+   and directions stay valid as long as each rank holds the same atoms.
 ------------------------------------------------------------------------- */
 
 void RigidWalls::find_markers(const fluid::Flow &flow)
@@ -95,7 +96,7 @@ RigidWalls::Change RigidWalls::find_change()
     migrated = wall->take_migrated() || migrated;
     moved = wall->take_moved() || moved;
   }
-  Change change = known_ ? (moved ? Change::places : Change::none) : Change::atoms;
+  Change change = surface_is_set_ ? (moved ? Change::places : Change::none) : Change::atoms;
   if (migrated) {
     collect_markers();
     if (!take_tags()) change = Change::atoms;
@@ -128,7 +129,7 @@ void RigidWalls::collect_markers()
 }
 
 /* ----------------------------------------------------------------------
-   false if they are not those of before
+   Stores the IDs and walls of markers_; returns whether they are the same as at the last call.
 ------------------------------------------------------------------------- */
 
 bool RigidWalls::take_tags()
@@ -151,8 +152,8 @@ void RigidWalls::set_markers(const fluid::Flow &flow)
   const auto times = surface_.times();
   surface_.set_markers(flow, first()->settings().kernel, static_cast<int>(markers_.size()),
                        position_.data(), body_.data());
-  if (known_) surface_.set_times(times);
-  known_ = true;
+  if (surface_is_set_) surface_.set_times(times);
+  surface_is_set_ = true;
   for (std::size_t n = 0; n < markers_.size(); ++n) {
     const double *const forces = walls_[markers_[n].wall]->forces(markers_[n].atom);
     for (int d = 0; d < 3; ++d) {

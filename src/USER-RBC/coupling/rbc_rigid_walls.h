@@ -22,9 +22,10 @@ class RigidWalls : public StepPart, protected Pointers {
   void begin_step(bool again);
   void place(double fraction);
 
-  /// Collective, between clear_force and accumulate_ghosts of a flow: adds guessed forces of a
-  /// time. `others` is as for fluid::RigidSurface. Reports to `stop`. With a free mean the solve
-  /// that follows is one for mean().
+  /// Collective; call between clear_force and accumulate_ghosts of a flow. Spreads the forces of
+  /// the walls as extrapolated to `time` (elapsed time of the simulation). `others`: sum of all
+  /// other forces of this rank. Reports to `stop` if an atom left this rank's part of the grid.
+  /// Where the mean velocity is free, solve with mean() afterwards.
   void spread(fluid::Flow &flow, double time, const std::array<double, 3> &others,
               CollectiveStop &stop);
 
@@ -33,12 +34,11 @@ class RigidWalls : public StepPart, protected Pointers {
   void enforce(fluid::Flow &flow);
 
   /// The mean velocity that balances forces, where it is free.
-  bool has_free_mean() const { return surface_.settings().free_mean; }
   const std::array<double, 3> &mean() const { return surface_.mean(); }
 
   const WallGroup *first() const { return walls_.front(); }
 
-  // of the last evaluation, but for the mean over those of the run
+  // Numbers of the last evaluation; mean_solves() is the mean over the run.
 
   bigint evaluation() const { return evaluations_; }
   double slip() const { return outcome_.slip; }
@@ -48,7 +48,7 @@ class RigidWalls : public StepPart, protected Pointers {
   void reset_counts();
   void warn() const;
 
-  void report_to(const std::shared_ptr<CollectiveStop> & /*driver*/) override {}
+  void report_to(const std::shared_ptr<CollectiveStop> & /*stop*/) override {}
   std::vector<Section> sections() override { return {{"Walls", &stopwatch_}}; }
 
   std::size_t bytes() const;
@@ -58,7 +58,7 @@ class RigidWalls : public StepPart, protected Pointers {
   fluid::RigidSurface surface_;
   fluid::RigidSurface::Outcome outcome_;
   rbc::Stopwatch stopwatch_;
-  bool known_ = false;    ///< what the surface keeps belongs to these atoms
+  bool surface_is_set_ = false;    ///< surface_ holds the forces of these atoms
 
   struct Marker {
     tagint tag;

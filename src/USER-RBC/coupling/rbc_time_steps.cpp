@@ -66,7 +66,8 @@ void TimeSteps::atoms_migrated()
 }
 
 /* ----------------------------------------------------------------------
-   with inertia velocities are those of the middle of the last step
+   With inertia the atoms already hold the velocities that the first step starts from, those of the
+   middle of the last step: they are only checked.
 ------------------------------------------------------------------------- */
 
 void TimeSteps::setup()
@@ -120,6 +121,8 @@ void TimeSteps::finish()
 
 void TimeSteps::choose_timestep()
 {
+  // The velocities below depend on the timestep, which therefore is set before them; then it is cut
+  // to what the fastest marker allows.
   if (control_.active()) set_timestep(next_dt_, step() - 1);
   if (flow_->has_inertia()) return;
   if (forces_change_ && step() == first_step_ + 1)
@@ -133,8 +136,8 @@ void TimeSteps::take_step()
 }
 
 /* ----------------------------------------------------------------------
-   whether a step has a result with an error within its bound; chooses the timestep of the next one,
-   or of this one again
+   Makes the step and returns whether it counts: whether it has a result, and an error within the
+   bound. Chooses the timestep of the next step, or of this one when it is made again.
 ------------------------------------------------------------------------- */
 
 bool TimeSteps::step_is_accepted()
@@ -206,7 +209,8 @@ void TimeSteps::stop_adapting(const std::string &flaw)
 }
 
 /* ----------------------------------------------------------------------
-   as fix dt/reset does
+   Changes LAMMPS's timestep from step `from_step` on: keeps the elapsed time right and tells pair
+   styles, fixes and output. LAMMPS's fix dt/reset does the same.
 ------------------------------------------------------------------------- */
 
 void TimeSteps::set_timestep(double dt, bigint from_step)

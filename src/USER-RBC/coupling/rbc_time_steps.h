@@ -27,18 +27,22 @@ class TimeSteps : protected Pointers {
   int columns() const { return AtomStore::columns(*integrator_); }
   void keep_in(FixStoreAtom *store) { store_.keep_in(store, *integrator_); }
 
-  /// At the start of a run; `forces_change` if the forces of the first step are not those of the
-  /// setup.
+  /// Call at the start of a run. `forces_change`: fixes defined after this one add forces that its
+  /// setup() did not see, so that the first step computes its velocities anew.
   void start_run(DrivenFlow *flow, bool forces_change);
   void atoms_migrated();
 
-  /// Velocities at the start of a run.
+  /// Sets the velocities from which the first step of a run starts. Where a flow rate is held, two
+  /// more evaluations find how it responds.
   void setup();
 
-  /// The atoms hold positions and velocities of the start of the step, then positions of its end.
+  /// Makes a step. On entry the atoms hold positions and velocities of its start; on return atom->x
+  /// holds the positions of its end. With a bound on the error the step is repeated with shorter
+  /// timesteps until it meets the bound; it is an error if none does.
   void advance();
 
-  /// Velocities at the end of the step, from the forces that LAMMPS has computed there.
+  /// Sets atom->v to the velocities at the end of the step, from the forces that LAMMPS has
+  /// computed there. With fluid inertia they stay those of the middle of the step.
   void finish();
 
   double local_error() const { return local_error_; }
@@ -65,12 +69,13 @@ class TimeSteps : protected Pointers {
   bigint first_step_ = 0;
   bool forces_change_ = false;
 
-  // a step: positions and velocities at its start, positions and velocities at its end
+  // Of the present step, three numbers for each marker here: positions and velocities at its start
+  // and at its end, and work space.
   rbc::Numbers X_, V_, X_new_, V_new_, scratch_;
   double last_dt_ = 0, next_dt_ = 0, local_error_ = 0;
   bool restarted_ = false;
-  bool velocities_known_ =
-      false;    ///< those at the end of the step, before LAMMPS computes forces
+  /// measure_error() has computed the velocities at the end of the step: finish() need not.
+  bool velocities_known_ = false;
   bigint rejected_ = 0, failed_ = 0;
   std::string last_failure_;
 

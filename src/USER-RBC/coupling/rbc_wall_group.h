@@ -35,7 +35,7 @@ class WallGroup : protected Pointers {
 
   void atoms_migrated() { migrated_ = true; }
 
-  /// Whether atoms migrated, or the atoms moved, since the last time that this was asked.
+  /// Return whether atoms migrated, or wall atoms moved, since the last call, and reset this.
   bool take_migrated() { return std::exchange(migrated_, false); }
   bool take_moved() { return std::exchange(moved_, false); }
 
@@ -46,8 +46,8 @@ class WallGroup : protected Pointers {
   /// more, with another timestep. Collective where the velocity is a variable.
   void begin_step(bool again);
 
-  /// Moves the atoms to where they are at a fraction of the step. The velocity is linear in time
-  /// within it.
+  /// Moves the atoms by what they travel from their present place to that at `fraction` of the
+  /// step. The velocity is linear in time within a step.
   void place(double fraction);
 
   /// Forces of the fluid on an atom in the last evaluation, then those in the evaluation before it.

@@ -32,17 +32,18 @@ class ChebyshevMethod {
   void set_stages(int stages);
   int stages() const { return static_cast<int>(stages_.size()); }
 
-  /// x = positions a time dt after `start`, where the velocity is `velocity`; stages() - 1
-  /// evaluations. The fractions of the step that the motion hears of begin at `begin` and extend
-  /// over `part`.
+  /// Sets x to the positions a time dt after `start`, where the velocity is `velocity`; takes
+  /// stages() - 1 evaluations. A call may make only a part of a time step: `begin` is the fraction
+  /// of the step at which it begins, `part` the fraction that it covers.
   void step(Motion &motion, double dt, const Numbers &start, const Numbers &velocity,
             const DisplacementHistory &past, Numbers &x, double begin = 0, double part = 1);
 
   std::size_t bytes() const;
 
  private:
-  /// Y = mu Y_1 + nu Y_2 + dt (rate V_1 + base V_0), at a fraction `at` of the step, with Y_1 and
-  /// Y_2 the last two stages, which count from the start.
+  /// Coefficients of a stage: Y = mu Y_1 + nu Y_2 + dt (rate V_1 + base V_0), with the deviations
+  /// Y_1 and Y_2 of the last two stages from the start, the velocity V_1 at the last stage and V_0
+  /// at the start. `at`: time of the stage as a fraction of the step.
   struct Stage {
     double mu, nu, rate, base, at;
   };

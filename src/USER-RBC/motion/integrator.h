@@ -47,16 +47,21 @@ class Integrator {
   virtual double largest_growth() const { return 2; }
 
   /// Whether it may advance points in a fluid with inertia, whose velocities at the start of a step
-  /// are those of the middle of the last step.
+  /// are those of the middle of the last step. There a call of velocity() or velocity_at_start()
+  /// makes the fluid's step: only a method may that makes just one call, for the middle of the step.
   virtual bool allows_inertia() const { return false; }
 
-  /// Vectors that it keeps for each point, and whether it asks for known_steps().
+  /// Number of vectors that it keeps for each point in the PointStore.
   virtual int kept_vectors() const { return 0; }
+
+  /// Whether it uses PointStore::known_steps().
   virtual bool counts_steps() const { return false; }
 
   /// At the start of a run. `length` is one over which velocities vary, for finite differences.
   virtual void start_run(double /*length*/) {}
 
+  /// Call after points migrated between ranks and at the start of a run. `points`: number of points
+  /// that this rank holds now. `store` has moved with them.
   virtual void points_migrated(const Motion & /*motion*/, std::size_t /*points*/,
                                const PointStore & /*store*/)
   {
@@ -65,7 +70,9 @@ class Integrator {
   /// x = the positions at the end of the step.
   virtual void step(Motion &motion, PointStore &store, const StepStart &start, Numbers &x) = 0;
 
-  /// The step that led to `x` counts, or is made again with another timestep.
+  /// One of both follows each step(). accept(): the positions `x` are those of the end of the step.
+  /// reject(): the step is made again from the same start with another timestep; `x` is how far it
+  /// came if it had no result.
   virtual void accept(PointStore & /*store*/, const StepStart & /*start*/, const Numbers & /*x*/) {}
   virtual void reject(const Motion & /*motion*/, PointStore & /*store*/,
                       const StepStart & /*start*/, const Numbers & /*x*/)

@@ -4,8 +4,9 @@
 
 namespace rbc {
 
-/// Explicit midpoint method. In the middle of the step a velocity at the start that is that of half
-/// a step before is as good: the method stays of second order.
+/// Explicit midpoint method. In a fluid with inertia the velocities at the start are those of half
+/// a step before. They only serve to find the positions in the middle, with an error of second
+/// order in dt, so the method stays of second order.
 class Midpoint : public Integrator {
  public:
   int order() const override { return 2; }

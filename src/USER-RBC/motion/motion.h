@@ -14,12 +14,13 @@ using Numbers = std::vector<double>;
 /// collective.
 class Motion {
  public:
-  /// Makes `v` the velocity V at positions `x` and a fraction of the step. `v` comes with a guess
-  /// of it.
+  /// Computes the velocities of all points at positions `x` and at the time that lies at `fraction`
+  /// of the step (0 start, 1 end). `v` is input and output: on entry it is a guess, from which
+  /// iterative solvers start. May throw on all ranks together if there is no result.
   virtual void velocity(const Numbers &x, double fraction, Numbers &v) = 0;
 
   /// Makes `v` the velocity at the positions `x` of the start of the step, where it is not that
-  /// already.
+  /// already: in a fluid with inertia. In one without, StepStart::v needs nothing.
   virtual void velocity_at_start(const Numbers & /*x*/, Numbers & /*v*/) {}
 
   /// Adds `values` up over ranks.
@@ -28,8 +29,10 @@ class Motion {
   /// A number of each point's own, whatever rank holds it.
   virtual std::int64_t label(std::size_t point) const { return static_cast<std::int64_t>(point); }
 
-  /// While the spectrum is estimated, velocities belong to positions that the points do not take.
-  /// The motion may leave out what only makes fast modes slower, and accepts any speed.
+  /// Between estimate_spectrum(true) and estimate_spectrum(false), velocity() only serves to
+  /// estimate the spectral radius, and the points never take the positions that it is given. The
+  /// motion may leave out effects that can only slow the fastest modes (viscosity of membranes,
+  /// walls), and must not refuse high speeds.
   virtual void estimate_spectrum(bool /*on*/) {}
 
  protected:

@@ -17,7 +17,8 @@ class ResponseControl {
   }
   bool probing() const { return stage_ != Stage::KNOWN; }
 
-  /// From the value that the present input has given.
+  /// Takes the value `measured` that the present input() has given and chooses the input that
+  /// should give `wanted`; the first two calls of a probe learn disturbance and response.
   void adjust(double measured, double wanted)
   {
     switch (stage_) {

@@ -20,9 +20,9 @@ class SpectralRadius {
   double estimate(Motion &motion, const Numbers &x, const Numbers &velocity, double size,
                   Numbers &mode);
 
-  /// A step from `start` to `end` went wrong: if it was unstable it grew along the fastest mode, of
-  /// which the last one found may hold nothing. What it moved points by, other than along their
-  /// `velocity` at its start, becomes part of the guess.
+  /// Adds to `mode` how a rejected step moved the points from `start` to `end`, other than along
+  /// their `velocity` at its start. If the step was unstable, this has grown along the fastest
+  /// mode, which the last estimate may have missed.
   void suspect(const Motion &motion, const Numbers &start, const Numbers &end,
                const Numbers &velocity, Numbers &mode);
 

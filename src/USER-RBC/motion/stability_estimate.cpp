@@ -69,8 +69,10 @@ void StabilityEstimate::estimate(Motion &motion, PointStore &store, int mode_vec
   radius_step_ = start.step;
   if (root_mean_square(motion, mode_) == 0) return;    // there are no points
 
-  // the velocities known are those of other times, and of viscous forces, which are not solved for
-  // as exactly as differences ask and only slow what relaxes
+  // start.v is no reference for the differences: it may belong to forcing of another time, and it
+  // contains viscous forces, which are solved for less exactly than differences need. So the
+  // velocities at start.x are evaluated once more without these forces. Leaving them out is safe:
+  // they can only slow relaxation.
   {
     const Estimating estimating(motion);
     velocity_ = start.v;

@@ -5,10 +5,10 @@
 
 namespace rbc {
 
-/// The spectral radius for which steps must be stable, with a margin. It is estimated anew every
-/// few steps, the more often the faster it changes, and what grows is taken to grow on until the
-/// next estimate. The fastest mode found is kept in a vector of the points, from which the next
-/// estimate starts.
+/// Spectral radius for which steps must be stable, with a safety margin. It is estimated anew every
+/// few steps, more often if it changes fast. If it has grown since the last estimate, it is
+/// multiplied by the same ratio once more (at most 1.5), for the steps until the next one. The
+/// fastest mode found is kept in a vector of the points; the next estimate starts from it.
 class StabilityEstimate {
  public:
   /// At the start of a run; points are displaced by a small part of `length`.

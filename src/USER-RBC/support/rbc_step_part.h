@@ -10,8 +10,8 @@
 
 namespace LAMMPS_NS {
 
-/// A style whose work belongs to the steps of a fix rbc/ib, which checks for its errors and reports
-/// its time.
+/// Something that works in the steps of a fix rbc/ib: the fix lists its time, and errors found in
+/// it are reported to the fix.
 class StepPart {
  public:
   struct Section {
@@ -19,8 +19,9 @@ class StepPart {
     rbc::Stopwatch *stopwatch;
   };
 
-  /// In this run errors go to `driver`. It ends the run, or takes the step again.
-  virtual void report_to(const std::shared_ptr<CollectiveStop> &driver) = 0;
+  /// From now on in this run, errors are reported to `stop`, whose owner checks it: this ends the
+  /// run or rejects the step.
+  virtual void report_to(const std::shared_ptr<CollectiveStop> &stop) = 0;
 
   /// What the table of step cost lists. Sections of the same name are added up.
   virtual std::vector<Section> sections() = 0;

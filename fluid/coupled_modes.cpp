@@ -11,9 +11,9 @@ namespace {
 /// pentadiagonal symmetric positive definite system
 ///   (q A_w + D^T A_c D) w = q f_w + kappa h D^T f_along,   q = (kappa h)^2,
 /// where A_w, A_c are the Helmholtz operators on faces and centres and D the difference in z.
-class WalledModes : public PlateModes {
+class CoupledModes : public PlateModes {
  public:
-  WalledModes(const Grid &grid, const Box &modes, double viscosity, double shift) :
+  CoupledModes(const Grid &grid, const Box &modes, double viscosity, double shift) :
       PlateModes(grid, modes, viscosity, shift), across_(grid.cells[2]), along_(grid.cells[2]),
       vertical_(grid.cells[2])
   {
@@ -75,10 +75,10 @@ class WalledModes : public PlateModes {
 
 }    // namespace
 
-std::unique_ptr<ModeSolver> make_walled_modes(const Grid &grid, const Box &modes, double viscosity,
-                                              double shift)
+std::unique_ptr<ModeSolver> make_coupled_modes(const Grid &grid, const Box &modes, double viscosity,
+                                               double shift)
 {
-  return std::make_unique<WalledModes>(grid, modes, viscosity, shift);
+  return std::make_unique<CoupledModes>(grid, modes, viscosity, shift);
 }
 
 }    // namespace fluid

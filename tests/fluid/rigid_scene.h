@@ -1,0 +1,84 @@
+#pragma once
+
+#include "fluid/diagnostics.h"
+#include "fluid/kernel.h"
+#include "rigid_sphere.h"
+#include "rigid_tube.h"
+
+namespace test {
+
+inline constexpr int ghost_layers = 4;
+inline constexpr double tight = 1e-8;
+
+/// A flow of unit viscosity with markers of rigid bodies.
+struct Scene {
+  ForcedFlow flow;
+  std::vector<Points> bodies;
+  std::vector<double> position;
+  RigidSurface surface;
+  std::vector<int> body;
+  KernelKind kernel;
+
+  Scene(const Grid &grid, const Decomposition &decomposition, KernelKind kernel,
+        std::vector<Points> bodies, bool free_mean, double tolerance = tight) :
+      flow(grid, decomposition, ghost_layers, FlowEquations{}),
+      bodies(std::move(bodies)), kernel(kernel)
+  {
+    RigidSurface::Settings settings;
+    settings.free_mean = free_mean;
+    settings.tolerance = tolerance;
+    settings.max_solves = 300;
+    if (tolerance < 1e-6) settings.most_directions = 300;
+    surface.set_settings(settings);
+    for (std::size_t b = 0; b < this->bodies.size(); ++b) {
+      assign(this->bodies[b], grid, decomposition);
+      const auto rows = rows_here(this->bodies[b].position, this->bodies[b]);
+      position.insert(position.end(), rows.begin(), rows.end());
+      body.insert(body.end(), this->bodies[b].index.size(), static_cast<int>(b));
+    }
+    surface.set_markers(flow, kernel, static_cast<int>(body.size()), position.data(), body.data());
+  }
+
+  /// body_force(c, x) is the force density; velocity(b) is that of a body.
+  template <typename Force, typename Velocity>
+  RigidSurface::Outcome solve(Force body_force, Velocity velocity, double time = 0)
+  {
+    const Grid &grid = flow.grid();
+    flow.clear_force();
+    Real3 total{0, 0, 0};
+    for (int c = 0; c < 3; ++c)
+      set(flow.force()[c], flow.brick(), [&](int i, int j, int k) {
+        const double f = body_force(c, location(grid, c, i, j, k));
+        total[c] += f * grid.cell_volume();
+        return f;
+      });
+    for (std::size_t n = 0; n < body.size(); ++n) {
+      const Real3 u = velocity(body[n]);
+      std::copy_n(u.data(), 3, surface.target() + 3 * n);
+    }
+    EXPECT_LT(surface.spread(flow, time, total), 0);
+    flow.accumulate_ghosts();
+    if (surface.settings().free_mean) flow.forcing.mean = surface.mean();
+    flow.solve();
+    const auto outcome = surface.enforce(flow);
+    if (surface.settings().free_mean) flow.forcing.mean = surface.mean();
+    EXPECT_TRUE(outcome.converged) << outcome.slip;
+    return outcome;
+  }
+
+  /// On the fluid, by one body.
+  Real3 force(int of)
+  {
+    Real3 sum{0, 0, 0};
+    for (std::size_t n = 0; n < body.size(); ++n)
+      for (int d = 0; d < 3; ++d)
+        if (body[n] == of) sum[d] += surface.force()[3 * n + d];
+    reduce(MPI_SUM, sum[0], sum[1], sum[2]);
+    return sum;
+  }
+};
+
+inline constexpr auto no_force = [](int, const Real3 &) { return 0.0; };
+inline constexpr auto at_rest = [](int) { return Real3{0, 0, 0}; };
+
+}    // namespace test
