@@ -5,7 +5,11 @@
 . "$(dirname "$0")/../scripts/common.sh"
 needs_results "$@"
 case $1 in
-  --output) mkdir -p "$2"; results=$(cd "$2" && pwd); shift 2 ;;
+  --output)
+    mkdir -p "${2:?a folder comes after --output}"
+    results=$(cd "$2" && pwd)
+    shift 2
+    ;;
   --update) results=$ROOT/bench; shift ;;
   *) fail "--output FOLDER or --update comes first" ;;
 esac
