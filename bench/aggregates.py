@@ -6,11 +6,19 @@ with the keyword area. What it costs is the difference to the first; core time i
 that other work on the machine counts little. The number of aggregates must be that of the columns.
 """
 
-import argparse
 import csv
 import os
 import re
 import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "scripts"))
+import command_line  # noqa: E402
+
+POTENTIALS = HERE.parent / "potentials"
 
 SCENE = """
 units           micro
@@ -42,12 +50,12 @@ CASES = ("without", "not called", "called", "called, area")
 SHAPES = {512: (8, 2), 4096: (16, 4), 49152: (32, 12)}    # cells: columns along x and y, times 4 cells of height
 
 
-def run(options, cells, ranks, steps):
+def run(cells, ranks, steps):
     """Core milliseconds per step of each case and memory per rank in MB."""
     columns, height = SHAPES[cells]
     name = f"in.{cells}"
     with open(name, "w", encoding="utf-8") as stream:
-        stream.write(SCENE.format(potentials=options.potentials, columns=columns, height=height, steps=steps))
+        stream.write(SCENE.format(potentials=POTENTIALS, columns=columns, height=height, steps=steps))
     command = [os.environ["MPIEXEC"], "-np", str(ranks), os.environ["LMP_RBC"], "-in", name, "-log", f"log.{cells}.{ranks}"]
     printed = subprocess.run(command, check=True, text=True, stdout=subprocess.PIPE).stdout
     found = {int(float(text)) for text in re.findall(r"^ +\d+ +([\d.e+]+) *$", printed, re.MULTILINE)}
@@ -60,21 +68,22 @@ def run(options, cells, ranks, steps):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--potentials", required=True)
-    parser.add_argument("--output", required=True)
+    parser = command_line.parser(__doc__)
+    command_line.add_results(parser)
     parser.add_argument("--cells", type=int, nargs="+", default=[512, 4096], choices=SHAPES)
     parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2])
     parser.add_argument("--vertex-steps", type=float, default=3e6, help="vertices times steps of each run")
-    options = parser.parse_args()
+    options = command_line.parse(parser, HERE, ["LMP_RBC", "MPIEXEC"])
 
-    with open(options.output, "w", newline="", encoding="utf-8") as stream:
+    with open(options.output / "aggregates.csv", "w", newline="", encoding="utf-8") as stream, \
+            tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
         table = csv.DictWriter(stream, FIELDS)
         table.writeheader()
         for cells in options.cells:
             for ranks in options.ranks:
                 vertices = 162 * cells
-                times, memory = run(options, cells, ranks, max(3, round(options.vertex_steps / vertices)))
+                times, memory = run(cells, ranks, max(3, round(options.vertex_steps / vertices)))
                 for case, time, size in zip(CASES, times, memory):
                     row = dict(zip(FIELDS, (cells, ranks, case, f"{time:.4g}", f"{time - times[0]:.3g}",
                                             f"{1000 * (time - times[0]) / vertices:.3g}", f"{size:.4g}")))

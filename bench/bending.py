@@ -1,14 +1,19 @@
-"""Reads bench/bending.csv, prints it as a table and draws bench/bending.png: errors against the spacing of the mesh."""
+"""Errors of bending that `bending` measures, bending.csv: prints a table and draws bending.png, errors over the spacing of the
+mesh."""
 
 import csv
+import sys
 from pathlib import Path
 
-import matplotlib
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "scripts"))
+import command_line  # noqa: E402, F401
+import matplotlib  # noqa: E402
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+import matplotlib.pyplot as plt  # noqa: E402
+from program_table import folder_with  # noqa: E402
 
-HERE = Path(__file__).resolve().parent
 ENERGIES = [("sphere_energy", "sphere", "o"), ("disc_energy", "biconcave disc", "s")]
 FORCES = [("force_bands", "16 bands of latitude", "o"), ("force_median", "median", "s"),
           ("force_rms", "rms", "^"), ("force_largest", "largest", "v"),
@@ -17,7 +22,8 @@ LINES = {"helfrich": "-", "dihedral": "--"}
 
 
 def main():
-    rows = list(csv.DictReader(open(HERE / "bending.csv")))
+    folder = folder_with("bending", __doc__)
+    rows = list(csv.DictReader(open(folder / "bending.csv")))
     figure, (energies, forces) = plt.subplots(1, 2, figsize=(11, 4.6), layout="constrained")
     for form, line in LINES.items():
         mine = [row for row in rows if row["form"] == form]
@@ -39,7 +45,8 @@ def main():
         axes.set_ylabel("relative error")
         axes.legend(fontsize=7)
         axes.grid(alpha=0.3)
-    figure.savefig(HERE / "bending.png", dpi=110)
+    figure.savefig(folder / "bending.png", dpi=110)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -9,18 +9,17 @@ compared relative to its largest value. The script ends with 1 if a difference i
 run fails or if the columns differ.
 """
 
-import argparse
 import os
 import re
 import subprocess
 import sys
 from pathlib import Path
 
+TOP = Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(TOP / folder) for folder in ("tests/helpers", "tests/scenes", "scripts")]
+
+import command_line
 import numpy as np
-
-TESTS = Path(__file__).resolve().parents[1] / "tests"
-sys.path[:0] = [str(TESTS / "helpers"), str(TESTS / "scenes")]
-
 from lammps_case import ENVIRONMENT, ROOT, SHEAR, attempt, in_parallel, scene
 from scene_case import example_script
 
@@ -229,8 +228,7 @@ def collected(build, script, folder):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_line.parser(__doc__)
     parser.add_argument("before", type=Path)
     parser.add_argument("now", type=Path)
     parser.add_argument("--only", nargs="+", default=[], help="words of the names of scenes")

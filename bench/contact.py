@@ -4,7 +4,7 @@
 The cells lie in 8 x 8 x 8 places, side by side and face to face, slightly turned, at a volume fraction of 0.5; more than a quarter
 of their surface is in contact. They stay where they are: evaluations are all alike, and with `check no` each step begins with
 a search. Times are processor time of the run (which a busy machine changes less than wall time) less that of the same
-run without the pair style: more ghost atoms count in. Writes contact.csv. The executable comes from the environment
+run without the pair style: more ghost atoms count in. Writes contact.csv to a folder. The executable comes from the environment
 (LMP_RBC).
 """
 import csv
@@ -14,7 +14,8 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "tests" / "styles"))
+sys.path[:0] = str(HERE.parent / "tests" / "helpers"), str(HERE.parent / "scripts")
+import command_line  # noqa: E402
 from lammps_case import POTENTIALS, run  # noqa: E402
 
 SCRIPT = """
@@ -77,6 +78,9 @@ def per_step(pair, check, few, many):
 
 
 def main():
+    parser = command_line.parser(__doc__)
+    command_line.add_results(parser)
+    arguments = command_line.parse(parser, HERE, ["LMP_RBC"])
     rows = []
     for check, few, many, what in (("yes", 5, 85, "evaluation"), ("no", 2, 12, "search and evaluation")):
         base, _ = per_step("", check, few, many)
@@ -86,7 +90,7 @@ def main():
             print("{:10} {:22} {:6.1f} ms, {:.3f} us per vertex".format(name, what, 1e3 * rows[-1][2], rows[-1][3]),
                   flush=True)
     print(f"area in contact: {2 * result.thermo['c_contact[1]'][-1] / 512:.1f} um^2 of each cell")
-    with open(HERE / "contact.csv", "w", encoding="utf-8", newline="") as stream:
+    with open(arguments.output / "contact.csv", "w", encoding="utf-8", newline="") as stream:
         table = csv.writer(stream, lineterminator="\n")
         table.writerow(["pair", "what", "core_s", "us_per_vertex"])
         table.writerows([*row[:2], f"{row[2]:.4g}", f"{row[3]:.4g}"] for row in rows)

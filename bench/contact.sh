@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Time of pair rbc/jkr for 512 red cells in contact, per evaluation and per search of near triangles, on one core.
-# Writes contact.csv.
+# Time of pair rbc/jkr for 512 red cells in contact, per evaluation and per search of near triangles, on one core:
+# contact.csv.
+#   usage: contact.sh --output FOLDER|--update
 . "$(dirname "$0")/../scripts/common.sh"
+needs_results "$@"
 
 "$ROOT/scripts/build.sh" 4Feb2025 lmp_rbc
-mkdir -p "$BUILD/contact"
-cd "$BUILD/contact"
-LMP_RBC=$BUILD/lmp_rbc "$PYTHON" "$ROOT/bench/contact.py"
+LMP_RBC=$BUILD/lmp_rbc "$PYTHON" "$ROOT/bench/contact.py" "$@"

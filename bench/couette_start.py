@@ -1,10 +1,9 @@
 """Start-up of plane Couette flow: error against run time of fix rbc/fluid and of LAMMPS's own fix lb/fluid.
 
-Fluid at rest, the upper plate moves with U from t = 0 on. Writes couette_start.csv and couette_start.png; the
+Fluid at rest, the upper plate moves with U from t = 0 on. Writes couette_start.csv and couette_start.png to a folder; the
 executable and fix lb/fluid as a plugin come from the environment (LMP_RBC, LB_FLUID), as in couette_start.sh.
 """
 
-import argparse
 import csv
 import itertools
 import os
@@ -15,12 +14,12 @@ import tempfile
 from collections import namedtuple
 from pathlib import Path
 
-import numpy as np
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "tests" / "styles"))
+sys.path[:0] = str(HERE.parent / "tests" / "helpers"), str(HERE.parent / "scripts")
+import command_line  # noqa: E402
+import numpy as np  # noqa: E402
+from matplotlib.figure import Figure  # noqa: E402
+from matplotlib.lines import Line2D  # noqa: E402
 from lammps_case import run  # noqa: E402
 
 GAP, SPEED, VISCOSITY, DENSITY = 24.0, 1.0e-3, 1.0, 1.0    # units micro: water, 24 um, 1 mm/s
@@ -164,9 +163,11 @@ def report(rows):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser = command_line.parser(__doc__)
+    command_line.add_results(parser)
     parser.add_argument("--repeats", type=int, default=3, help="timed runs of each case, of which the quickest counts")
-    repeats = parser.parse_args().repeats
+    arguments = command_line.parse(parser, HERE, ["LMP_RBC"])
+    repeats = arguments.repeats
     cases = all_cases()
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
@@ -182,11 +183,11 @@ def main():
                              "ns_per_cell_step": round(1e9 * seconds / case.points / case.total_steps, 1),
                              "nu t/H^2": time, "error": float(f"{error:.4g}")})
     rows.sort(key=lambda row: (row["code"], -row["dx"], row["steps"], row["nu t/H^2"]))
-    with open(HERE / "couette_start.csv", "w", newline="") as file:
+    with open(arguments.output / "couette_start.csv", "w", newline="") as file:
         writer = csv.DictWriter(file, rows[0].keys(), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
-    draw(rows, HERE / "couette_start.png")
+    draw(rows, arguments.output / "couette_start.png")
     report(rows)
 
 

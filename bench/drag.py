@@ -1,19 +1,24 @@
-"""Reads bench/drag.csv, prints the largest errors and draws bench/drag.png: error against resolution."""
+"""Drag of spheres that `drag` measures, drag.csv: prints the largest errors and draws drag.png, error against resolution."""
 
 import csv
+import sys
 from pathlib import Path
 
-import matplotlib
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "scripts"))
+import command_line  # noqa: E402, F401
+import matplotlib  # noqa: E402
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+import matplotlib.pyplot as plt  # noqa: E402
+from program_table import folder_with  # noqa: E402
 
-HERE = Path(__file__).resolve().parent
 STYLE = {"peskin4": "o-", "roma3": "s--"}
 
 
 def main():
-    rows = list(csv.DictReader(open(HERE / "drag.csv")))
+    folder = folder_with("drag", __doc__)
+    rows = list(csv.DictReader(open(folder / "drag.csv")))
     settings = list(dict.fromkeys(row["setting"] for row in rows))
     figure, axes = plt.subplots(1, len(settings), figsize=(4.2 * len(settings), 3.8), sharey=True)
     for axis, setting in zip(axes, settings):
@@ -35,7 +40,7 @@ def main():
         axis.grid(alpha=0.3)
     axes[0].set_ylabel("error of the drag (%)")
     figure.tight_layout()
-    figure.savefig(HERE / "drag.png", dpi=110)
+    figure.savefig(folder / "drag.png", dpi=110)
 
 
 if __name__ == "__main__":

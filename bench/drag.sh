@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Drag of rigid spheres, simple cubic arrays and between plates: writes bench/drag.csv and bench/drag.png (a minute).
+# Drag of rigid spheres in simple cubic arrays and between plates: drag.csv and drag.png (a minute).
+#   usage: drag.sh --output FOLDER|--update
 . "$(dirname "$0")/../scripts/common.sh"
+needs_results "$@"
 
 "$ROOT/scripts/build.sh" 4Feb2025 drag
-"$BUILD/drag" > "$ROOT/bench/drag.csv"
-"$PYTHON" "$ROOT/bench/drag.py"
+"$PYTHON" "$ROOT/bench/drag.py" --program "$BUILD/drag" "$@"

@@ -8,16 +8,24 @@ stops the run, and at its end, after 1000 steps or that strain (but 60 steps at 
 more than 1.5 times that of a stable run: what is not stable crumples the membrane.
 """
 
-import argparse
 import csv
 import math
+import os
 import re
 import subprocess
+import sys
+import tempfile
+from pathlib import Path
 
-import matplotlib
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "scripts"))
+import command_line  # noqa: E402
+import matplotlib  # noqa: E402
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-import numpy as np
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+
+POTENTIALS = HERE.parent / "potentials"
 
 SCENE = """
 units           micro
@@ -67,7 +75,7 @@ class Cell:
         every = math.ceil((end or self.end) / timestep / FRAMES - 1e-9)
         steps = FRAMES * every
         timestep = (end or self.end) / steps
-        script = SCENE.format(potentials=self.options.potentials, material=self.material, area=self.area, rate=self.rate,
+        script = SCENE.format(potentials=POTENTIALS, material=self.material, area=self.area, rate=self.rate,
                               integrator=integrator, timestep=timestep, steps=steps, every=every)
         with open("in.integrators", "w", encoding="ascii") as stream:
             stream.write(script)
@@ -176,17 +184,19 @@ def draw(rows, path):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--lmp", required=True)
-    parser.add_argument("--potentials", required=True)
-    parser.add_argument("--output", required=True, help="path without ending of the table and the picture")
+    parser = command_line.parser(__doc__)
+    command_line.add_results(parser)
+    parser.add_argument("--lmp", type=Path, default=HERE.parent / "build" / "lmp_rbc")
     parser.add_argument("--rates", type=float, nargs="+", default=[10, 100], help="shear rates, 1/s")
     parser.add_argument("--materials", nargs="*", choices=MATERIALS, default=list(MATERIALS),
                         help="measured anew; what the table has of others stays")
-    options = parser.parse_args()
+    options = command_line.parse(parser, HERE)
+    options.lmp = options.lmp.resolve()
 
-    table = options.output + ".csv"
-    new = [row for rate in options.rates for row in measure(options, rate, options.materials)]
+    table = options.output / "integrators.csv"
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        new = [row for rate in options.rates for row in measure(options, rate, options.materials)]
     try:
         with open(table, encoding="ascii") as stream:
             rows = [row for row in csv.DictReader(stream)
@@ -200,7 +210,7 @@ def main():
             writer.writerow({k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()})
     with open(table, encoding="ascii") as stream:
         rows = list(csv.DictReader(stream))
-    draw(rows, options.output + ".png")
+    draw(rows, options.output / "integrators.png")
     print("\n".join(summary(rows)))
 
 

@@ -1,11 +1,16 @@
 #!/usr/bin/env python3
-"""Puts the results of `kernels` (Google Benchmark's JSON, named *.<ranks>.json) into a CSV file and a table.
+"""Puts the results of `kernels` (Google Benchmark's JSON, named *.<ranks>.json) into kernels.csv and a table.
 
-usage: kernels.py kernels.csv kernels.1.json [kernels.2.json ...]
+    kernels.py kernels.1.json [kernels.2.json ...] --output FOLDER
 """
 import csv
 import json
 import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "scripts"))
+import command_line  # noqa: E402
 
 NUMBERS = ["least", "median", "fftw_estimate", "fftw_measure"]
 UNITS = {"walled": "ns/cell", "periodic": "ns/cell", "halo": "ns/ghost cell",
@@ -21,9 +26,13 @@ def read(path):
                    **{key: round(run[key], 2) for key in NUMBERS if key in run}}
 
 
-def main(table, *results):
-    rows = [row for path in results for row in read(path)]
-    with open(table, "w", newline="") as file:
+def main():
+    parser = command_line.parser(__doc__)
+    parser.add_argument("results", nargs="+")
+    command_line.add_results(parser)
+    arguments = command_line.parse(parser, HERE)
+    rows = [row for path in arguments.results for row in read(path)]
+    with open(arguments.output / "kernels.csv", "w", newline="") as file:
         writer = csv.DictWriter(file, ["part", "kind", "cells", "ranks", "unit"] + NUMBERS,
                                 lineterminator="\n")
         writer.writeheader()
@@ -43,4 +52,5 @@ def main(table, *results):
         print(line)
 
 
-main(*sys.argv[1:])
+if __name__ == "__main__":
+    main()

@@ -5,7 +5,7 @@ Reads what `membrane` measured alone (Google Benchmark's JSON), measures the sam
 the table at their end: the positions' way in and the forces' way out belong to it), and writes membrane.csv. The
 executable comes from the environment (LMP_RBC).
 
-usage: membrane.py membrane.json
+    membrane.py membrane.json --output FOLDER
 """
 import csv
 import json
@@ -15,7 +15,8 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "tests" / "styles"))
+sys.path[:0] = str(HERE.parent / "tests" / "helpers"), str(HERE.parent / "scripts")
+import command_line  # noqa: E402
 from lammps_case import POTENTIALS, run  # noqa: E402
 
 SCRIPT = """
@@ -61,11 +62,15 @@ def in_a_run(vertices, bending, volume):
     return {"where": "run", "what": what, "bending": bending, "vertices": vertices, "times": times}
 
 
-def main(measured):
-    rows = list(alone(measured))
+def main():
+    parser = command_line.parser(__doc__)
+    parser.add_argument("measured")
+    command_line.add_results(parser)
+    arguments = command_line.parse(parser, HERE, ["LMP_RBC"])
+    rows = list(alone(arguments.measured))
     rows += [in_a_run(vertices, bending, volume) for volume in ("no", "yes")
              for bending in ("dihedral", "helfrich") for vertices in (642, 2562)]
-    with open(HERE / "membrane.csv", "w", newline="") as file:
+    with open(arguments.output / "membrane.csv", "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["where", "what", "bending", "vertices", "least_ns_per_vertex", "median_ns_per_vertex"])
         for row in rows:
@@ -75,4 +80,5 @@ def main(measured):
                   f" {min(times):6.1f} ns per vertex, median {statistics.median(times):6.1f}")
 
 
-main(*sys.argv[1:])
+if __name__ == "__main__":
+    main()

@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
 """Packings of rbc/create: run time, least gap, directions; the same places on any number of ranks.
 
-Writes packing.csv, packing.png (directions) and packing-cells.png; the executables come from the environment (LMP_RBC,
+Writes packing.csv, packing.png (directions) and packing-cells.png to a folder; the executables come from the environment (LMP_RBC,
 MPIEXEC), as in packing.sh.
 """
-import argparse
 import csv
 import os
 import re
@@ -14,11 +13,11 @@ import sys
 import tempfile
 from pathlib import Path
 
-import numpy as np
-from matplotlib.figure import Figure
-
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE.parent / "tests" / "styles"), str(HERE.parent / "scripts")]
+sys.path[:0] = [str(HERE.parent / "tests" / "helpers"), str(HERE.parent / "scripts")]
+import command_line  # noqa: E402
+import numpy as np  # noqa: E402
+from matplotlib.figure import Figure  # noqa: E402
 from lammps_case import POTENTIALS, Failed, dump_line, read_template, run  # noqa: E402
 from surface_distances import least_gap  # noqa: E402
 
@@ -88,7 +87,7 @@ def processor_time():
     return usage.ru_utime + usage.ru_stime
 
 
-def measure(case, reference):
+def measure(case, reference, output):
     template, cells, hematocrit, plates, seed, ranks = case
     row = {"template": template, "cells": cells, "hematocrit": hematocrit, "box": "plates" if plates else "periodic",
            "seed": seed, "ranks": ranks, "oversubscribed": "yes" if ranks > len(os.sched_getaffinity(0)) else "no",
@@ -126,11 +125,11 @@ def measure(case, reference):
     if case[:5] == PICTURE and not same:
         picture = ["--box", "0", f"{box[0]}", "0", f"{box[1]}", "0", f"{box[2]}", "--plates", "--view", "25", "22"]
         subprocess.run([sys.executable, HERE.parent / "scripts" / "render_cells.py", result.path("cells.0.vtp"), "-o",
-                        HERE / "packing-cells.png", *picture], check=True)
+                        output / "packing-cells.png", *picture], check=True)
     return row, axes
 
 
-def plot(directions):
+def plot(directions, path):
     """Distribution of the axes' components: uniform between 0 and 1 for isotropic directions."""
     figure = Figure(figsize=(9, 3.2), layout="constrained")
     panels = figure.subplots(1, len(directions), sharey=True)
@@ -144,29 +143,31 @@ def plot(directions):
         panel.set_xlabel("component of the axis")
     panels[0].set_ylabel("share of cells below")
     panels[0].legend()
-    figure.savefig(HERE / "packing.png", dpi=120)
+    figure.savefig(path, dpi=120)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--quick", action="store_true", help="64 cells, files in a folder that is thrown away")
-    quick = parser.parse_args().quick
+    parser = command_line.parser(__doc__)
+    command_line.add_results(parser)
+    parser.add_argument("--quick", action="store_true", help="64 cells at most; prints the table and writes none")
+    arguments = command_line.parse(parser, HERE, ["LMP_RBC", "MPIEXEC"])
+    quick = arguments.quick
     cases = [(template, 64, *rest) for template, cells, *rest in CASES if cells <= 512] if quick else CASES
     rows, reference, directions = [], {}, {}
     with tempfile.TemporaryDirectory() as scratch:
         os.chdir(scratch)
         for case in cases:
-            row, axes = measure(case, reference)
+            row, axes = measure(case, reference, arguments.output)
             rows.append(row)
             if case[0] == "rbc_162" and case[1] == 512 and case[4] == 4711:
                 directions[case[:5]] = axes
     if quick:
         return
-    with open(HERE / "packing.csv", "w", newline="") as file:
+    with open(arguments.output / "packing.csv", "w", newline="") as file:
         writer = csv.DictWriter(file, rows[0].keys(), restval="", lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
-    plot(directions)
+    plot(directions, arguments.output / "packing.png")
 
 
 if __name__ == "__main__":

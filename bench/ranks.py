@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
 """Differences between runs of the vessel scenes of the examples, at reduced length, on 1, 2 and 4 ranks.
 
-Writes ranks.csv and ranks.png; the executables come from the environment (LMP_RBC, MPIEXEC), as in ranks.sh.
+Writes ranks.csv and ranks.png to a folder; the executables come from the environment (LMP_RBC, MPIEXEC), as in ranks.sh.
 """
-import argparse
 import csv
 import itertools
 import os
@@ -11,11 +10,11 @@ import sys
 import tempfile
 from pathlib import Path
 
-import numpy as np
-from matplotlib.figure import Figure
-
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE.parent / "tests" / folder) for folder in ("styles", "scenes")]
+sys.path[:0] = [str(HERE.parent / folder) for folder in ("tests/helpers", "tests/scenes", "scripts")]
+import command_line  # noqa: E402
+import numpy as np  # noqa: E402
+from matplotlib.figure import Figure  # noqa: E402
 from lammps_case import ROOT, run  # noqa: E402
 from scene_case import example_script, shortened  # noqa: E402
 
@@ -71,10 +70,12 @@ def draw(rows, path):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser = command_line.parser(__doc__)
+    command_line.add_results(parser)
     parser.add_argument("--only", nargs="*", choices=SCENES, default=list(SCENES),
                         help="scenes to run; of others ranks.csv keeps its rows")
-    path, only = HERE / "ranks.csv", parser.parse_args().only
+    arguments = command_line.parse(parser, HERE, ["LMP_RBC", "MPIEXEC"])
+    path, only = arguments.output / "ranks.csv", arguments.only
     rows = []
     if path.exists():
         with open(path, newline="", encoding="ascii") as file:
@@ -92,7 +93,7 @@ def main():
         writer = csv.DictWriter(file, rows[0].keys(), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
-    draw(rows, HERE / "ranks.png")
+    draw(rows, arguments.output / "ranks.png")
 
 
 if __name__ == "__main__":

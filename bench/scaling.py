@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
 """Scaling of fix rbc/fluid, alone and with red cells, over ranks and over layouts of the ranks.
 
-Writes scaling.csv and scaling.png; the executables come from the environment (LMP_RBC, MPIEXEC), as in scaling.sh.
+Writes scaling.csv and scaling.png to a folder; the executables come from the environment (LMP_RBC, MPIEXEC), as in scaling.sh.
 """
-import argparse
 import csv
 import os
 import re
@@ -11,10 +10,10 @@ import sys
 import tempfile
 from pathlib import Path
 
-from matplotlib.figure import Figure
-
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "tests" / "styles"))
+sys.path[:0] = str(HERE.parent / "tests" / "helpers"), str(HERE.parent / "scripts")
+import command_line  # noqa: E402
+from matplotlib.figure import Figure  # noqa: E402
 from lammps_case import POTENTIALS, run  # noqa: E402
 
 RANKS = (1, 2, 4)
@@ -123,14 +122,16 @@ def draw(rows, path):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser = command_line.parser(__doc__)
+    command_line.add_results(parser)
     parser.add_argument("--repeats", type=int, default=3, help="runs of each case, of which the quickest counts")
     cases = [(scene, ranks, layout) for scene in SCENES for ranks in RANKS for layout in LAYOUTS
              if ranks > 1 or layout == "default"]
+    arguments = command_line.parse(parser, HERE, ["LMP_RBC", "MPIEXEC"])
     runs = []
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        for _ in range(parser.parse_args().repeats):
+        for _ in range(arguments.repeats):
             runs.append([measure(*case) for case in cases])
     rows = [min(repeats, key=lambda row: row["run_time_s"]) for repeats in zip(*runs)]
     alone = {row["scene"]: row["run_time_s"] for row in rows if row["ranks"] == 1}
@@ -138,11 +139,11 @@ def main():
         row["speed_up"] = round(alone[row["scene"]] / row["run_time_s"], 2)
         print("{scene:10} {ranks} rank(s) ({processors}) {run_time_s:8.3f} s, speed-up {speed_up:.2f}".format(**row)
               + f", {row['ranks']} ranks share {CORES} cores" * (row["ranks"] > CORES))
-    with open(HERE / "scaling.csv", "w", newline="") as file:
+    with open(arguments.output / "scaling.csv", "w", newline="") as file:
         writer = csv.DictWriter(file, rows[0].keys(), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
-    draw(rows, HERE / "scaling.png")
+    draw(rows, arguments.output / "scaling.png")
 
 
 if __name__ == "__main__":

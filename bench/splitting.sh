@@ -1,9 +1,8 @@
 #!/usr/bin/env bash
-# Splitting error of the projection scheme; writes splitting.csv and splitting.png.
-#   usage: splitting.sh
+# Splitting error of the projection scheme: splitting.csv and splitting.png.
+#   usage: splitting.sh --output FOLDER|--update
 . "$(dirname "$0")/../scripts/common.sh"
+needs_results "$@"
 
 "$ROOT/scripts/build.sh" 4Feb2025 splitting
-
-"$BUILD/splitting" | tee "$ROOT/bench/splitting.csv"
-"$PYTHON" "$ROOT/bench/splitting.py" "$ROOT/bench/splitting.csv" "$ROOT/bench/splitting.png"
+"$PYTHON" "$ROOT/bench/splitting.py" --program "$BUILD/splitting" "$@"

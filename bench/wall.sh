@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Slip of a wall of markers against solves: writes bench/wall.csv and bench/wall.png (a minute).
+# Slip of a wall of markers against solves: wall.csv and wall.png (a minute).
+#   usage: wall.sh --output FOLDER|--update
 . "$(dirname "$0")/../scripts/common.sh"
+needs_results "$@"
 
 "$ROOT/scripts/build.sh" 4Feb2025 wall
-"$BUILD/wall" > "$ROOT/bench/wall.csv"
-"$PYTHON" "$ROOT/bench/wall.py"
+"$PYTHON" "$ROOT/bench/wall.py" --program "$BUILD/wall" "$@"

@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
-"""Plots error against run time as `work_precision` prints it.
-
-usage: work_precision.py work_precision.csv work_precision.png
-"""
+"""Error against run time that `work_precision` measures, work_precision.csv, drawn as work_precision.png."""
 import csv
 import sys
 from itertools import groupby
+from pathlib import Path
 
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "scripts"))
+import command_line  # noqa: E402, F401
+from matplotlib.figure import Figure  # noqa: E402
+from matplotlib.lines import Line2D  # noqa: E402
+from program_table import folder_with  # noqa: E402
 
 REGIMES = ("none", "unsteady", "convective")
 BOUNDARIES = ("plates", "periodic")
@@ -20,8 +22,9 @@ def side(row):
     return round(int(row["cells"])**(1 / 3))
 
 
-def main(table, picture):
-    with open(table) as file:
+def main():
+    folder = folder_with("work_precision", __doc__)
+    with open(folder / "work_precision.csv") as file:
         rows = list(csv.DictReader(file))
     figure = Figure(figsize=(12, 7.5), layout="constrained")
     grid = figure.subplots(len(BOUNDARIES), len(REGIMES), sharey=True)
@@ -53,7 +56,8 @@ def main(table, picture):
     grid[0][0].legend(handles=key, fontsize=9, loc="lower left")
     figure.suptitle("Manufactured flows; along a line the time step varies, its ends are labelled with "
                     r"$\eta\,\Delta t/(\rho h^2)$ (unsteady), $u\,\Delta t/h$ (convective)", size=11)
-    figure.savefig(picture, dpi=110)
+    figure.savefig(folder / "work_precision.png", dpi=110)
 
 
-main(*sys.argv[1:])
+if __name__ == "__main__":
+    main()

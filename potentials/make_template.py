@@ -26,10 +26,12 @@ import math
 import sys
 from pathlib import Path
 
-import numpy as np
+sys.path.append(str(Path(__file__).resolve().parents[1] / "scripts"))
+import command_line  # noqa: E402
+import numpy as np  # noqa: E402
 
-import shapes
-import surface_mesh
+import shapes  # noqa: E402
+import surface_mesh  # noqa: E402
 from molecule_file import read_molecule, write_molecule
 
 DATE = "2026-11-22"
@@ -169,8 +171,7 @@ def parse(arguments):
     smooth = argparse.ArgumentParser(add_help=False)
     smooth.add_argument("--match-volume", action="store_true",
                         help="scale so that the polyhedron has the smooth shape's volume")
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_line.parser(__doc__)
     shape = parser.add_subparsers(dest="shape", required=True)
     shape.add_parser("sphere", parents=[geodesic, smooth, files], help="sphere").add_argument(
         "--radius", type=POSITIVE, default=1.0, help="radius (default 1)")

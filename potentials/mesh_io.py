@@ -1,4 +1,7 @@
 """Surfaces in STL, PLY and VTP files, through VTK, and in ascii OFF files. Needs python3-vtk9."""
+import codecs
+import contextlib
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -52,7 +55,7 @@ def _filtered(kind, surface, **settings):
 
 def _read_off(path):
     """Polygons of an ascii OFF file; colours at the end of their lines are left out."""
-    rows = [line.split("#")[0].split() for line in path.read_text(encoding="utf-8").splitlines()]
+    rows = [line.split("#")[0].split() for line in path.read_text(encoding="utf-8-sig").splitlines()]
     if not any(rows) or next(filter(None, rows))[0] != "OFF":
         raise ValueError("does not begin with OFF (COFF, NOFF, binary OFF and others are not read)")
     rows = [row for row in ([word for word in row if word != "OFF"] for row in rows) if row]
@@ -66,6 +69,19 @@ def _read_off(path):
     if any(not 0 <= v < vertices for polygon in polygons for v in polygon):
         raise ValueError("a face names a vertex that does not exist")
     return _polydata([[float(word) for word in row[:3]] for row in rows[:vertices]], polygons)
+
+
+@contextlib.contextmanager
+def _without_mark(path):
+    """Path of the same file without the byte-order mark that some editors put before a text."""
+    content = path.read_bytes()
+    if not content.startswith(codecs.BOM_UTF8):
+        yield path
+        return
+    with tempfile.NamedTemporaryFile(suffix=path.suffix) as file:
+        file.write(content[len(codecs.BOM_UTF8):])
+        file.flush()
+        yield file.name
 
 
 def read_surface(path):
@@ -82,10 +98,11 @@ def read_surface(path):
     else:
         vtkObject.GlobalWarningDisplayOff()  # what is wrong is said below
         reader = READERS[kind]()
-        reader.SetFileName(str(path))
         if kind == ".stl":
             reader.MergingOff()  # it would drop degenerate triangles without a word
-        reader.Update()
+        with _without_mark(path) as plain:
+            reader.SetFileName(str(plain))
+            reader.Update()
         surface = reader.GetOutput()
     if not surface.GetNumberOfPolys():
         raise ValueError(f"no polygons could be read as {kind[1:].upper()}")

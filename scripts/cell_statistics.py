@@ -15,9 +15,9 @@ Neighbours are cells with their centres closer than --neighbours and, if the agg
 
 with --aggregates member.dat, in the same aggregate.
 """
-import argparse
 from typing import NamedTuple
 
+import command_line
 import numpy as np
 
 from read_ave_time import read_ave_time
@@ -142,7 +142,7 @@ def draw(path, statistics, time, paths, labels, coordinate, time_label):
 
 
 def parse(arguments):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_line.parser(__doc__)
     parser.add_argument("cells", help="file of fix ave/time with the columns of compute rbc/cell")
     parser.add_argument("--box", type=float, nargs=6, required=True, metavar=("XLO", "XHI", "YLO", "YHI", "ZLO", "ZHI"))
     parser.add_argument("--boundary", nargs=3, default=["p", "p", "p"], metavar=("X", "Y", "Z"),

@@ -1,8 +1,17 @@
 # Shared by the scripts of this folder: where things are kept and how they are built.
 set -euo pipefail
 
+say() { printf '== %s\n' "$*"; }
+
+fail() {
+  printf '%s: %s\n' "$(basename "$0")" "$*" >&2
+  exit 1
+}
+
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-CACHE=${USER_RBC_CACHE:-${XDG_CACHE_HOME:-$HOME/.cache}/user-rbc}
+CACHE=${USER_RBC_CACHE:-${XDG_CACHE_HOME:-${HOME:+$HOME/.cache}}}
+[ -n "$CACHE" ] || fail "HOME is not set: set USER_RBC_CACHE to a folder for LAMMPS and the compiler's cache"
+[ -n "${USER_RBC_CACHE:-}" ] || CACHE=$CACHE/user-rbc
 BUILD=${USER_RBC_BUILD:-$ROOT/build}
 JOBS=${USER_RBC_JOBS:-$(nproc)}
 # Debian's own interpreter: the modules come as Debian packages, and another python3 may be on the PATH.
@@ -15,8 +24,12 @@ export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1
 export OMPI_MCA_hwloc_base_binding_policy=none
 export OMP_NUM_THREADS=1
 
-say() { printf '== %s\n' "$*"; }
-
-as_root() {
-  if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi
+# Ends before anything is built unless the arguments of a benchmark say where its results go. Its
+# Python script reads them.
+needs_results() {
+  local word
+  for word in "$@"; do
+    case $word in -o | --output | --output=* | --update) return ;; esac
+  done
+  fail "say where results go: --output FOLDER, or --update to write over those of the repository"
 }

@@ -13,9 +13,22 @@ for package in "${packages[@]}"; do
   dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed' || missing+=("$package")
 done
 
-if [ ${#missing[@]} -gt 0 ]; then
-  say "installing ${missing[*]}"
-  export DEBIAN_FRONTEND=noninteractive
-  as_root apt-get update -q
-  as_root apt-get install -y -q --no-install-recommends "${missing[@]}"
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+# sudo that would ask for a password asks only a person.
+as_root=()
+if [ "$(id -u)" != 0 ]; then
+  as_root=(sudo)
+  [ -t 0 ] || as_root+=(-n)
 fi
+by_hand="these Debian packages are missing: ${missing[*]}"
+command -v apt-get >/dev/null ||
+  fail "$by_hand (there is no apt-get here: install what they hold by other means)"
+[ ${#as_root[@]} = 0 ] || "${as_root[@]}" true 2>/dev/null ||
+  fail "$by_hand; install them as root: apt-get install --no-install-recommends ${missing[*]}"
+
+say "installing ${missing[*]}"
+export DEBIAN_FRONTEND=noninteractive
+{ "${as_root[@]}" apt-get update -q &&
+  "${as_root[@]}" apt-get install -y -q --no-install-recommends "${missing[@]}"; } ||
+  fail "$by_hand, and could not be installed (see above): is there a network?"

@@ -1,22 +1,33 @@
 """What the study.py of the examples share: their options and how they run the example's script."""
-import argparse
 import csv
 import os
 import subprocess
+from pathlib import Path
 
+import command_line    # before numpy, which may be missing
 import numpy as np
 
 TOP = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
 POTENTIALS = os.path.join(TOP, "potentials")
 
 
-def options(description):
-    """Parser of the options that all have."""
-    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawTextHelpFormatter)
+def options(description, series=()):
+    """Parser of the options that all have, read by command_line.parse. `series`: what --only chooses from."""
+    parser = command_line.parser(description)
+    command_line.add_results(parser)
     parser.add_argument("--lmp", type=os.path.abspath, default=os.path.join(TOP, "build", "lmp_rbc"))
     parser.add_argument("--ranks", type=int, default=1)
-    parser.add_argument("--only", nargs="*", help="series to run; default all")
+    if series:
+        parser.add_argument("--only", nargs="+", choices=list(dict.fromkeys(series)), help="series to run; default all")
     return parser
+
+
+def add_runs_folder(parser):
+    parser.add_argument("--folder", type=Path, help="of the runs; default that of --output")
+
+
+def runs_folder(arguments):
+    return arguments.folder or arguments.output / ("runs" if arguments.update else "")
 
 
 def wanted(arguments, series):

@@ -5,12 +5,19 @@
 . "$(dirname "$0")/common.sh"
 . "$(dirname "$0")/lammps_version.sh" "${1:-4Feb2025}"
 
+# What is half done goes when the script ends, however it ends.
+scratch='' partial=$LAMMPS_HOME/source.partial
+clean() {
+  rm -rf "$scratch" "$partial"
+  [ ! -d "$LAMMPS_HOME" ] || rmdir --ignore-fail-on-non-empty "$LAMMPS_HOME"
+}
+
 fetch_source() {
-  local scratch uri
+  local uri header
   scratch=$(mktemp -d)
   uri=$(apt-get indextargets --format '$(RELEASE) $(COMPONENT) $(REPO_URI)' 'Created-By: Packages' |
     awk -v codename="$(. /etc/os-release && echo "$VERSION_CODENAME")" '$1 == codename && $2 == "main" {print $3; exit}')
-  [ -n "$uri" ] || { echo "no Debian main archive in this machine's apt configuration" >&2; exit 1; }
+  [ -n "$uri" ] || fail "there is no Debian main archive in this machine's apt configuration"
 
   mkdir -p "$scratch/lists/partial" "$scratch/cache/archives/partial"
   echo "deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $uri $LAMMPS_SUITE main" >"$scratch/source.list"
@@ -22,21 +29,20 @@ Dir::Cache "$scratch/cache";
 APT::Sandbox::User "root";
 CONF
   export APT_CONFIG=$scratch/apt.conf
-  apt-get update -q
-  (cd "$scratch" && apt-get source -q --tar-only lammps)
-  local partial=$LAMMPS_HOME/source.partial header
+  (cd "$scratch" && apt-get update -q -o APT::Update::Error-Mode=any && apt-get source -q --tar-only lammps) ||
+    fail "the LAMMPS $LAMMPS_VERSION source could not be fetched from $uri (see above): is there a network?"
   rm -rf "$partial"
-  mkdir -p "$partial"
+  mkdir -p "$partial" || fail "$LAMMPS_HOME cannot be written: set USER_RBC_CACHE to another folder"
   tar -xf "$scratch"/lammps_*.orig.tar.* -C "$partial"
-  rm -rf "$scratch"
   # Some of these archives have a top folder, some have not.
   header=$(find "$partial" -maxdepth 3 -path '*/src/lammps.h')
   mv "${header%/src/lammps.h}" "$LAMMPS_HOME/source"
-  rm -rf "$partial"
 }
 
 if [ ! -d "$LAMMPS_HOME/source" ]; then
   say "fetching the LAMMPS $LAMMPS_VERSION source from Debian"
+  trap clean EXIT
+  trap 'exit 1' HUP INT TERM
   fetch_source
 fi
 

@@ -3,7 +3,7 @@
 case "$1" in
   4Feb2025) LAMMPS_VERSION=4Feb2025 LAMMPS_SUITE=trixie ;;
   newest) LAMMPS_VERSION=newest LAMMPS_SUITE=sid BUILD=$BUILD-newest ;;
-  *) echo "LAMMPS version '$1' is not known; use 4Feb2025 or newest" >&2; exit 1 ;;
+  *) fail "LAMMPS version '$1' is not known; use 4Feb2025 or newest" ;;
 esac
 
 LAMMPS_OPTIONS=(

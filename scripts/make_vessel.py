@@ -16,16 +16,21 @@ Examples
   make_vessel.py throat --unit 8 throat.stl                    # Figure 6 of Xu et al. 2017 for cells of 8 um
   make_vessel.py bifurcation --length 120 --diameter 20 --distance 24 fork.stl
 """
-import argparse
+import math
 import sys
 from pathlib import Path
 
+import command_line
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D
 
 CENTRELINE = 400      # points along it
+MOST_TRIANGLES = 2e7
+SIZES = {             # that only some shapes have
+    "throat_diameter": "throat", "throat_length": "throat", "taper": "throat", "daughter_diameter": "bifurcation",
+    "distance": "bifurcation"}
 BLEND = 0.15          # of the parent's diameter: where branches meet
 
 
@@ -135,7 +140,7 @@ def write_stl(path, points, triangles):
 
 
 def parse(words):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_line.parser(__doc__)
     parser.add_argument("shape", choices=["tube", "throat", "bifurcation"])
     parser.add_argument("output", type=Path, help="the STL file (binary)")
     parser.add_argument("--unit", type=float, default=1, help="all defaults below are in this length (1)")
@@ -148,12 +153,15 @@ def parse(words):
     parser.add_argument("--distance", type=float, help="between the axes of the daughters (1.2 diameters)")
     parser.add_argument("--edge", type=float, help="of the triangles (a twentieth of the diameter)")
     options = parser.parse_args(words)
+    for name, shape in SIZES.items():
+        if getattr(options, name) is not None and options.shape != shape:
+            parser.error(f"--{name.replace('_', '-')} is for the shape {shape}, not {options.shape}")
 
     def default(name, value):
         if getattr(options, name) is None:
             setattr(options, name, value)
-        if not getattr(options, name) > 0:
-            parser.error(f"--{name.replace('_', '-')} {getattr(options, name)} must be > 0")
+        if not 0 < getattr(options, name) < math.inf:
+            parser.error(f"--{name.replace('_', '-')} {getattr(options, name)} must be > 0 and finite")
     default("unit", 1)
     default("length", 15 * options.unit)
     default("diameter", 3 * options.unit)
@@ -163,12 +171,22 @@ def parse(words):
     default("daughter_diameter", options.diameter * 2**(-1 / 3))
     default("distance", 1.2 * options.diameter)
     default("edge", options.diameter / 20)
+    check(parser, options)
+    return options
+
+
+def check(parser, options):
+    """What sizes must be to each other."""
+    if options.shape == "throat" and options.throat_diameter > options.diameter:
+        parser.error(f"--throat-diameter {options.throat_diameter:g} must not be above the --diameter {options.diameter:g}")
     if options.shape == "throat" and options.throat_length + 2 * options.taper > options.length:
         parser.error(f"throat and tapers are {options.throat_length + 2 * options.taper:g} long, the vessel "
                      f"{options.length:g}")
     if options.shape == "bifurcation" and options.distance < options.daughter_diameter + 2 * options.edge:
         parser.error(f"--distance {options.distance:g} leaves the daughters, {options.daughter_diameter:g} wide, in one")
-    return options
+    triangles = 2 * math.pi * options.diameter * options.length / options.edge**2
+    if triangles > MOST_TRIANGLES:
+        parser.error(f"--edge {options.edge:g} makes about {triangles:.1g} triangles, more than {MOST_TRIANGLES:.0g}")
 
 
 def main(words):

@@ -15,8 +15,8 @@ Means are over whole half turns of a shape that tumbles.
     membrane_motion.py vertices.dump --timestep DT --shear-rate G [-o motion.dat] [--from STRAIN]
 """
 
-import argparse
 
+import command_line
 import numpy as np
 
 
@@ -66,7 +66,7 @@ def after_half_turns(time, shape):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser = command_line.parser(__doc__)
     parser.add_argument("dump")
     parser.add_argument("--timestep", type=float, required=True)
     parser.add_argument("--shear-rate", type=float, required=True, help="per unit of time of the timestep")

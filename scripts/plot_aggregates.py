@@ -7,9 +7,9 @@
 
 Fractions are of the aggregates of all frames together. With --no-singles single cells do not count as aggregates.
 """
-import argparse
 from typing import NamedTuple
 
+import command_line
 import numpy as np
 
 from read_ave_time import read_ave_time, read_table
@@ -75,7 +75,7 @@ def draw(path, cases, singles=True):
 
 
 def parse(arguments):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_line.parser(__doc__)
     parser.add_argument("--case", nargs=3, action="append", required=True, metavar=("RATE", "CLASSES", "SIZES"),
                         help="shear rate in 1/s, files of fix ave/time with the array and with the vector")
     parser.add_argument("--from", dest="start", type=int, default=0, metavar="STEP", help="leave out earlier frames")

@@ -15,9 +15,9 @@ or a whitespace table with a line "# time D theta_long area" above it:
 The flow is along x and its gradient along z. Angles are those of the projection on the x-z plane
 to x, in degrees in (-90, 90]: of the long axis, and of the short axis (a disc's normal).
 """
-import argparse
 import re
 
+import command_line
 import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
@@ -173,8 +173,7 @@ def draw(args, xlabel, shapes, angles, references):
 
 
 def parse(arguments):
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_line.parser(__doc__)
     source = parser.add_mutually_exclusive_group(required=True)
     source.add_argument("table", nargs="?", help="whitespace table with a '# name ...' line")
     source.add_argument("--cells", metavar="FILE", help="fix ave/time file of compute rbc/cell")

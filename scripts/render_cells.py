@@ -10,7 +10,6 @@ elevation E above the x-y plane: `--view 0 0` sees x to the right and z up.
 Needs the Debian packages python3-vtk9, python3-numpy and xvfb: VTK draws through an X server, and
 the script starts a private Xvfb for as long as it runs. Without Xvfb it uses $DISPLAY.
 """
-import argparse
 import colorsys
 import contextlib
 import os
@@ -18,6 +17,7 @@ import select
 import shutil
 import subprocess
 
+import command_line
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable
@@ -383,8 +383,7 @@ def size(text):
 
 
 def parse(arguments):
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_line.parser(__doc__)
     parser.add_argument("surface", help=".vtp or .pvtp file")
     parser.add_argument("-o", "--output", required=True, help="PNG to write")
     parser.add_argument("--color", metavar="ARRAY",

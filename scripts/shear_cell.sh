@@ -13,5 +13,5 @@ ranks=$((JOBS < 2 ? 1 : 2))
 say "running examples/shear-cell on $ranks MPI task(s) in $output"
 mpirun -np "$ranks" "$BUILD/lmp_rbc" -in "$example/in.shear-cell" -var templates "$ROOT/potentials" "$@"
 
-"$PYTHON" "$example/draw.py" "$output"
+"$PYTHON" "$example/draw.py" "$output" --output "$output"
 say "picture: $output/shear-cell.png; surfaces for ParaView: $output/cells.*.vtp; numbers: $output/cell.dat"

@@ -4,9 +4,9 @@ least distance of all their triangles, 0 where they cut each other; writes a row
 
   surface_gaps.py cells.*.vtp --box 47.6 47.6 30 --walls z -o gaps.csv
 """
-import argparse
 import csv
 
+import command_line
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
@@ -32,7 +32,7 @@ def read_cells(path):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_line.parser(__doc__)
     parser.add_argument("files", nargs="+")
     parser.add_argument("--box", type=float, nargs=3, required=True, help="lengths of the box")
     parser.add_argument("--walls", default="", help="directions that are not periodic, of x, y, z")

@@ -1,20 +1,20 @@
 #!/usr/bin/python3
 """Pressure of a balloon against its stretch, of the membrane and of the fluid: laws, mesh, grid spacing, speed.
 
-Runs in.balloon for a list of cases, compares with the closed forms and writes balloon.csv and balloon.png. Cases that
-balloon.csv already holds are not run again.
+Runs in.balloon for a list of cases, compares with the closed forms and writes balloon.csv and balloon.png to a folder. Cases
+that its balloon.csv already holds are not run again.
 
-    study.py [--lmp ../../build/lmp_rbc] [--ranks 1] [--only law mesh]
+    study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1] [--only law mesh]
 """
 
 import os
 import sys
 import tempfile
 
-import numpy as np
-
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts"))
+import command_line  # noqa: E402
+import numpy as np  # noqa: E402
 from example_study import options, run_cases, run_script  # noqa: E402
 from read_ave_time import read_csv  # noqa: E402
 
@@ -153,10 +153,10 @@ def plot(table, path):
 
 
 def main():
-    arguments = options(__doc__).parse_args()
-    table = run_cases(arguments, os.path.join(HERE, "balloon.csv"), ("stretch", "membrane", "fluid"), cases(), run)
+    arguments = command_line.parse(options(__doc__, (series for series, *_ in cases())), HERE)
+    table = run_cases(arguments, arguments.output / "balloon.csv", ("stretch", "membrane", "fluid"), cases(), run)
     report(table)
-    plot(table, os.path.join(HERE, "balloon.png"))
+    plot(table, arguments.output / "balloon.png")
 
 
 if __name__ == "__main__":

@@ -1,20 +1,21 @@
 #!/usr/bin/python3
 """A capsule in a tube: speed and outline over a/R and the capillary number, and the stiff limit against the exact one.
 
-Runs in.capsule-channel for a list of cases, writes capsule-channel.csv and outlines.csv, and draws outline.png (as Figure
-3 of the paper) and capsule-channel.png. Cases that capsule-channel.csv already holds are not run again.
+Runs in.capsule-channel for a list of cases, writes capsule-channel.csv and outlines.csv to a folder, and once it has all cases
+draws outline.png (as Figure 3 of the paper) and capsule-channel.png. Cases that its capsule-channel.csv already holds are not run
+again.
 
-    study.py [--lmp ../../build/lmp_rbc] [--ranks 1] [--only size Ca stiff]
+    study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1] [--only size Ca stiff]
 """
 import csv
 import sys
 import tempfile
 from pathlib import Path
 
-import numpy as np
-
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = str(HERE.parents[1] / "scripts"), str(HERE.parents[1] / "potentials")
+import command_line  # noqa: E402
+import numpy as np  # noqa: E402
 from example_study import POTENTIALS, options, run_cases, run_script  # noqa: E402
 from molecule_file import read_molecule  # noqa: E402
 from read_ave_time import read_table  # noqa: E402
@@ -27,7 +28,8 @@ NUMBERS = 0.005, 0.015, 0.03, 0.05, 0.1
 FINER = 12, 16, 24
 STIFF = dict(Ca=0.001, duration=0.6, length=5)
 MODES = 16    # Legendre polynomials of an outline
-FLOW = HERE / "flow.npz"
+FLOW = "flow.npz"
+OUTLINES = "outlines.csv"
 
 
 def label(variables):
@@ -102,20 +104,19 @@ def run(arguments, variables):
         if done.returncode:
             sys.exit(done.stdout[-600:])
         if variables["Ca"] != STIFF["Ca"]:
-            keep_outline(label(variables), Path(folder) / "capsule.dump")
+            keep_outline(arguments.output / OUTLINES, label(variables), Path(folder) / "capsule.dump")
         if variables == BASE:
-            keep_flow(Path(folder))
+            keep_flow(arguments.output / FLOW, Path(folder))
         return [measure(folder, variables)]
 
 
-def keep_flow(folder, tube=2.0):
+def keep_flow(path, folder, tube=2.0):
     velocity, x, y = slice_of_flow(folder / "flow.dump", tube)
     ends = read_dump(folder / "capsule.dump")[1][:, 1] / (2 * tube)
-    np.savez_compressed(FLOW, velocity=velocity.astype(np.float32), x=x, y=y, centre=(ends.min() + ends.max()) / 2)
+    np.savez_compressed(path, velocity=velocity.astype(np.float32), x=x, y=y, centre=(ends.min() + ends.max()) / 2)
 
 
-def keep_outline(name, dump):
-    path = HERE / "outlines.csv"
+def keep_outline(path, name, dump):
     new = not path.exists()
     x, r, rough = outline(dump)
     with open(path, "a", newline="", encoding="ascii") as stream:
@@ -125,21 +126,21 @@ def keep_outline(name, dump):
         writer.writerows((name, f"{a:.5f}", f"{b:.5f}", f"{rough:.1e}") for a, b in zip(x, r))
 
 
-def outlines():
+def outlines(path):
     found = {}
-    with open(HERE / "outlines.csv", encoding="ascii") as stream:
+    with open(path, encoding="ascii") as stream:
         for row in csv.DictReader(stream):
             found.setdefault(row["case"], []).append((float(row["x/R"]), float(row["r/R"])))
     return {name: np.array(rows).T for name, rows in found.items()}
 
 
-def draw_outline(path):
+def draw_outline(folder):
     """The counterpart of the paper's Figure 3: velocity over its mean, and the outline, in diameters of the tube."""
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
-    flow = np.load(FLOW)
-    x, r = outlines()[label(BASE)]
+    flow = np.load(folder / FLOW)
+    x, r = outlines(folder / OUTLINES)[label(BASE)]
     figure, (top, bottom) = plt.subplots(2, 1, figsize=(8, 6.2), height_ratios=[1, 1.15])
     period = flow["x"][0] + flow["x"][-1]
     along = (flow["x"] - flow["centre"] + period / 2) % period - period / 2
@@ -159,10 +160,10 @@ def draw_outline(path):
                title="(b) outline, a/R = 0.85")
     bottom.legend(frameon=False, loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=8)
     figure.tight_layout()
-    figure.savefig(path, dpi=90)
+    figure.savefig(folder / "outline.png", dpi=90)
 
 
-def draw_study(table, path):
+def draw_study(table, folder):
     """Speed over a/R, with the exact stiff limit; over Ca; outlines."""
     import matplotlib
     matplotlib.use("Agg")
@@ -181,7 +182,7 @@ def draw_study(table, path):
     right.semilogx(NUMBERS, [row[6] for row in rows], "s-", label="width / 2a")
     right.semilogx(NUMBERS, [row[4] for row in rows], "^-", label="speed / mean velocity")
     right.set(xlabel="Ca = viscosity x mean velocity / E$_s$", title="a/R = 0.85")
-    shapes = outlines()
+    shapes = outlines(folder / OUTLINES)
     for axis, several, name in ((sizes, [dict(BASE, ratio=ratio) for ratio in SIZES], "ratio"),
                                 (numbers, [dict(BASE, Ca=number) for number in NUMBERS], "Ca")):
         for n, variables in enumerate(several):
@@ -194,7 +195,7 @@ def draw_study(table, path):
     for axis in axes.flat:
         axis.legend(frameon=False, fontsize=8)
     figure.tight_layout()
-    figure.savefig(path, dpi=90)
+    figure.savefig(folder / "capsule-channel.png", dpi=90)
 
 
 def report(table):
@@ -208,12 +209,12 @@ def report(table):
 
 
 def main():
-    arguments = options(__doc__).parse_args()
-    table = run_cases(arguments, HERE / "capsule-channel.csv", COLUMNS, cases(), run)
-    if arguments.only is None:
+    arguments = command_line.parse(options(__doc__, (series for series, *_ in cases())), HERE)
+    table = run_cases(arguments, arguments.output / "capsule-channel.csv", COLUMNS, cases(), run)
+    if all(name in table for _, name, _ in cases()):
         report(table)
-        draw_outline(HERE / "outline.png")
-        draw_study(table, HERE / "capsule-channel.png")
+        draw_outline(arguments.output)
+        draw_study(table, arguments.output)
 
 
 if __name__ == "__main__":

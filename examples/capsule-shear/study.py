@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """Error of the capsule in shear against grid spacing, vertices, time step, box and run time.
 
-Runs in.capsule-shear for a list of cases, compares D(t) with the references of examples/reference
-and writes study.csv and study.png. Cases that study.csv already holds are not run again.
+Runs in.capsule-shear for a list of cases, writes study.csv to a folder, and once it has all cases compares D(t) with the
+references of examples/reference and draws study.png. Cases that its study.csv already holds are not run again.
 
-    study.py --lmp ../../build/lmp_rbc [--only base] [--ranks 1]
+    study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--only base] [--ranks 1]
 """
 
 import csv
@@ -13,10 +13,10 @@ import re
 import sys
 import tempfile
 
-import numpy as np
-
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts"))
+import command_line  # noqa: E402
+import numpy as np  # noqa: E402
 from example_study import options, run_script, wanted  # noqa: E402
 from read_ave_time import read_ave_time  # noqa: E402
 
@@ -205,11 +205,9 @@ def plot(rows, path):
 
 
 def main():
-    parser = options(__doc__)
-    parser.add_argument("--csv", default=os.path.join(HERE, "study.csv"))
-    arguments = parser.parse_args()
-
-    rows = load(arguments.csv)
+    arguments = command_line.parse(options(__doc__, (series for series, _ in cases())), HERE)
+    path = arguments.output / "study.csv"
+    rows = load(path)
     for series, variables in cases():
         name = key(series, variables)
         if name in rows or not wanted(arguments, series):
@@ -218,13 +216,14 @@ def main():
         row = dict(zip(["series", *BASE], name), loop_seconds=f"{loop:.2f}", D_end=f"{d[-1]:.8g}",
                    samples=" ".join(f"{x:.6g}:{y:.8g}" for x, y in zip(t, d)))
         rows[name] = row
-        with open(arguments.csv, "w", newline="") as file:
+        with open(path, "w", newline="") as file:
             writer = csv.DictWriter(file, FIELDS)
             writer.writeheader()
             writer.writerows(rows.values())
         print(*name, f"{loop:.1f} s", f"D = {d[-1]:.5f}", flush=True)
-    report(rows)
-    plot(rows, os.path.join(HERE, "study.png"))
+    if all(key(*case) in rows for case in cases()):
+        report(rows)
+        plot(rows, arguments.output / "study.png")
 
 
 if __name__ == "__main__":

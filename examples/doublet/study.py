@@ -1,25 +1,26 @@
 #!/usr/bin/python3
 """Shape of a pair of adhered red cells against the work of adhesion.
 
-Runs in.doublet (about half a minute each on one core), writes doublet.csv and shapes.csv, and draws doublet.png. With --draw
-only the picture, from these tables.
+Runs in.doublet (about half a minute each on one core), writes doublet.csv and shapes.csv to a folder, and draws doublet.png
+there. With --draw only the picture, from these tables, or where there are none from those of the repository.
+
+    study.py --output FOLDER [--draw]
 """
 
-import argparse
 import csv
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-import matplotlib
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-import numpy as np
-
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-sys.path.insert(0, str(ROOT / "potentials"))
+sys.path[:0] = str(ROOT / "scripts"), str(ROOT / "potentials")
+import command_line  # noqa: E402
+import matplotlib  # noqa: E402
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
 from molecule_file import read_molecule    # noqa: E402
 
 SIGMAS = 5e-5, 1e-4, 1.5e-4, 2e-4, 3e-4, 5e-4, 1e-3, 2e-3, 5e-3
@@ -82,7 +83,7 @@ def measure(lmp, shape, sigma):
     return [*row, amplitude], segments
 
 
-def draw(table, segments):
+def draw(table, segments, path):
     figure = plt.figure(figsize=(11, 6.4))
     grid = figure.add_gridspec(2, len(DRAWN), height_ratios=(1, 1.7))
     for n, sigma in enumerate(DRAWN):
@@ -108,7 +109,7 @@ def draw(table, segments):
         axis.legend(fontsize=8)
         axis.grid(alpha=0.3)
     figure.tight_layout()
-    figure.savefig(HERE / "doublet.png", dpi=110)
+    figure.savefig(path, dpi=110)
 
 
 def read(path):
@@ -123,22 +124,24 @@ def write(path, head, rows):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--lmp", default=ROOT / "build" / "lmp_rbc")
+    parser = command_line.parser(__doc__)
+    command_line.add_results(parser)
+    parser.add_argument("--lmp", type=Path, default=ROOT / "build" / "lmp_rbc")
     parser.add_argument("--shape", default="rbc_642")
     parser.add_argument("--draw", action="store_true", help="do not run")
-    options = parser.parse_args()
+    options = command_line.parse(parser, HERE)
     if not options.draw:
         table, segments = [], []
         for sigma in SIGMAS:
-            row, cut = measure(options.lmp, options.shape, sigma)
+            row, cut = measure(options.lmp.resolve(), options.shape, sigma)
             print(f"sigma {sigma:g}: contact {row[1]:.2f} um^2, amplitude of the S {row[5]:.3f} um, speed {row[4]:.2g}",
                   flush=True)
             table.append(row)
             segments += cut if sigma in DRAWN else []
-        write(HERE / "doublet.csv", "sigma,contact_area,adhesion_energy,membrane_energy,speed,amplitude", table)
-        write(HERE / "shapes.csv", "sigma,cell,x0,z0,x1,z1", segments)
-    draw(read(HERE / "doublet.csv"), read(HERE / "shapes.csv"))
+        write(options.output / "doublet.csv", "sigma,contact_area,adhesion_energy,membrane_energy,speed,amplitude", table)
+        write(options.output / "shapes.csv", "sigma,cell,x0,z0,x1,z1", segments)
+    tables = (read(command_line.kept(options.output, HERE, name)) for name in ("doublet.csv", "shapes.csv"))
+    draw(*tables, options.output / "doublet.png")
 
 
 if __name__ == "__main__":

@@ -4,17 +4,17 @@
 Runs in.fahraeus in a folder for each case, and once without cells, writes fahraeus.csv and draws fahraeus.png. Cases of
 which the folder is there already are not run again.
 
-  study.py --folder runs [--lmp ../../build/lmp_rbc] [--only d20h30 d10h30]
+  study.py --output FOLDER [--folder runs] [--lmp ../../build/lmp_rbc] [--only d20h30 d10h30]
 """
 import csv
 import subprocess
 import sys
 from pathlib import Path
 
-import numpy as np
-
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
+import command_line  # noqa: E402
+import numpy as np  # noqa: E402
 import example_study  # noqa: E402
 from read_ave_time import read_ave_time  # noqa: E402
 from snapshots import surfaces  # noqa: E402
@@ -177,9 +177,10 @@ def plasma(arguments, variables):
 
 
 def main():
-    parser = example_study.options(__doc__)
-    parser.add_argument("--folder", type=Path, default=HERE / "runs", help="of the runs")
-    arguments = parser.parse_args()
+    parser = example_study.options(__doc__, CASES)
+    example_study.add_runs_folder(parser)
+    arguments = command_line.parse(parser, HERE)
+    arguments.folder = example_study.runs_folder(arguments)
     cases, rows, pictures = {}, {}, {}
     for name, variables in CASES.items():
         folder = arguments.folder / name
@@ -190,10 +191,10 @@ def main():
         if name not in PICTURES:
             continue
         pictures[name] = folder / "last.png"
-        subprocess.run([HERE.parents[1] / "scripts" / "render_cells.py", surfaces(folder)[-1][1], "-o", pictures[name],
+        subprocess.run([sys.executable, HERE.parents[1] / "scripts" / "render_cells.py", surfaces(folder)[-1][1], "-o", pictures[name],
                         "--color", "molecule", "--view", "60", "15", "--size", "640x480"], check=True)
-    write(rows, HERE / "fahraeus.csv")
-    draw(cases, rows, pictures, HERE / "fahraeus.png")
+    write(rows, arguments.output / "fahraeus.csv")
+    draw(cases, rows, pictures, arguments.output / "fahraeus.png")
 
 
 if __name__ == "__main__":

@@ -2,23 +2,28 @@
 """Relaxation of a stretched red cell for several viscosities of its membrane, beside the cells of Hochmuth et al. (1979).
 
 Runs in.relaxation (2 to 5 minutes each on one core) for all cases, or those named with --case, keeps the curves in
-relaxation.csv, draws relaxation.png and prints the time constants. With --draw only the picture and the numbers.
+relaxation.csv of a folder, draws relaxation.png there and prints the time constants. With --draw only the picture and the numbers,
+from that table, or where there is none from that of the repository.
+
+    study.py --output FOLDER [--case thinning] [--draw]
 """
 
-import argparse
 import csv
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
-import matplotlib
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-import numpy as np
-
 HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "scripts"))
+import command_line  # noqa: E402
+import matplotlib  # noqa: E402
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+
 REFERENCE = HERE.parent / "reference" / "01g_relaxation_hochmuth1979.csv"
-TABLE = HERE / "relaxation.csv"
+TABLE = "relaxation.csv"
 LABELS = {"thinning": "healthy.material: η_m falls", "300": "η_m = 300 pg/µs", "600": "η_m = 600 pg/µs", "900": "η_m = 900 pg/µs"}
 
 
@@ -57,15 +62,18 @@ def read(path):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--lmp", default=HERE.parents[1] / "build" / "lmp_rbc")
+    parser = command_line.parser(__doc__)
+    command_line.add_results(parser)
+    parser.add_argument("--lmp", type=Path, default=HERE.parents[1] / "build" / "lmp_rbc")
     parser.add_argument("--case", action="append", choices=LABELS, help="measure this case only")
     parser.add_argument("--draw", action="store_true", help="do not run")
-    options = parser.parse_args()
-    curves = read(TABLE) if TABLE.exists() else {}
+    options = command_line.parse(parser, HERE)
+    table = options.output / TABLE
+    source = command_line.kept(options.output, HERE, TABLE) if options.draw else table
+    curves = read(source) if source.exists() else {}
     for case in [] if options.draw else options.case or LABELS:
-        curves[case] = measure(options.lmp, HERE.parents[1] / "potentials", case)
-        with open(TABLE, "w", encoding="utf-8") as stream:
+        curves[case] = measure(options.lmp.resolve(), HERE.parents[1] / "potentials", case)
+        with open(table, "w", encoding="utf-8") as stream:
             stream.write("case,time_s,L_over_W\n")
             stream.writelines(f"{name},{t:.6g},{ratio:.6g}\n" for name, rows in curves.items() for t, ratio in zip(*rows))
 
@@ -90,7 +98,7 @@ def main():
     axis.legend(fontsize=8)
     axis.grid(alpha=0.3)
     figure.tight_layout()
-    figure.savefig(HERE / "relaxation.png", dpi=110)
+    figure.savefig(options.output / "relaxation.png", dpi=110)
 
 
 if __name__ == "__main__":

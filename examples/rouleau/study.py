@@ -1,6 +1,9 @@
 #!/usr/bin/python3
 """A rouleau sheared at rising rates, with four works of adhesion: aggregates and energy of adhesion over the strain, and
-the cells halfway through each rate. Runs in.rouleau (three minutes in all on one core), writes rouleau.csv and draws rouleau.png.
+the cells halfway through each rate. Runs in.rouleau (three minutes in all on one core), writes rouleau.csv to a folder and draws
+rouleau.png there.
+
+    study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1]
 """
 import csv
 import subprocess
@@ -8,13 +11,13 @@ import sys
 import tempfile
 from pathlib import Path
 
-import matplotlib
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-import numpy as np
-
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
+import command_line  # noqa: E402
+import matplotlib  # noqa: E402
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
 import example_study  # noqa: E402
 from read_ave_time import read_table  # noqa: E402
 
@@ -66,12 +69,13 @@ def draw(tables, shots, path):
 
 
 def main():
-    arguments = example_study.options(__doc__).parse_args()
+    arguments = command_line.parse(example_study.options(__doc__), HERE)
+    path = arguments.output / "rouleau.csv"
     tables, shots = {}, {}
     for work in WORKS:
         with tempfile.TemporaryDirectory() as folder:
             tables[work], shots[work] = run(arguments, work, folder)
-    with open(HERE / "rouleau.csv", "w", newline="", encoding="ascii") as stream:
+    with open(path, "w", newline="", encoding="ascii") as stream:
         writer = csv.writer(stream)
         writer.writerow(("sigma_mN_m", "rate_1_s", "aggregates_mean", "aggregates_end", "largest_end", "energy_end"))
         for work, table in tables.items():
@@ -80,8 +84,8 @@ def main():
                 writer.writerow((work, f"{rate:g}", f"{table['c_rouleau[1]'][here].mean():.3g}",
                                  *(f"{table[name][here][-1]:.3g}" for name in
                                    ("c_rouleau[1]", "c_rouleau[4]", "c_adhesion"))))
-    draw(tables, {work: shots[work] for work in SHOWN}, HERE / "rouleau.png")
-    print(open(HERE / "rouleau.csv", encoding="ascii").read())
+    draw(tables, {work: shots[work] for work in SHOWN}, arguments.output / "rouleau.png")
+    print(path.read_text(encoding="ascii"))
 
 
 if __name__ == "__main__":

@@ -2,18 +2,21 @@
 """Picture of a run of in.shear-cell: D and angles against strain, above snapshots of the cell. Prints the
 ranges of D (after a strain of 5), of the area, and the largest error of the volume.
 
-    draw.py FOLDER        where cell.dat, vertices.dump, scene.dat and cells.*.vtp are; writes shear-cell.png
+    draw.py RUN --output FOLDER
+
+RUN is where cell.dat, vertices.dump, scene.dat and cells.*.vtp are; shear-cell.png goes to FOLDER.
 """
 
 import os
 import sys
 
-import matplotlib
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts"))
+import command_line  # noqa: E402
+import matplotlib  # noqa: E402
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-import numpy as np
-
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
 from membrane_motion import angles, read_dump  # noqa: E402
 from read_ave_time import read_ave_time  # noqa: E402
 from snapshots import picture, surfaces  # noqa: E402
@@ -32,7 +35,11 @@ def snapshots(folder, strain):
 
 
 def main():
-    folder = sys.argv[1]
+    parser = command_line.parser(__doc__)
+    parser.add_argument("run")
+    command_line.add_results(parser)
+    arguments = command_line.parse(parser, HERE)
+    folder = arguments.run
     rate, timestep, viscosity = np.loadtxt(os.path.join(folder, "scene.dat"))
     strain = rate * 1e-6 * timestep
     history = read_ave_time(os.path.join(folder, "cell.dat"))
@@ -62,7 +69,7 @@ def main():
         panel.set_axis_off()
         panel.set_title(f"strain {step * strain:.0f}", fontsize=10)
     figure.tight_layout()
-    figure.savefig(os.path.join(folder, "shear-cell.png"), dpi=90)
+    figure.savefig(arguments.output / "shear-cell.png", dpi=90)
 
 
 if __name__ == "__main__":

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """A cell a thousand times as stiff as a healthy one: how it turns, and what its stiffness costs each integrator.
 
-Runs in.stiff for a list of cases, measures the period of its tumbling against Jeffery's, and writes stiff.csv and
-stiff.png. Cases that stiff.csv already holds are not run again.
+Runs in.stiff for a list of cases, measures the period of its tumbling against Jeffery's, writes stiff.csv to a folder and once it
+has all cases draws stiff.png there. Cases that its stiff.csv already holds are not run again.
 
-    study.py [--lmp ../../build/lmp_rbc] [--ranks 1] [--only step rate]
+    study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1] [--only step rate]
 """
 
 import csv
@@ -13,13 +13,13 @@ import subprocess
 import sys
 import tempfile
 
-import matplotlib
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-import numpy as np
-
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts"))
+import command_line  # noqa: E402
+import matplotlib  # noqa: E402
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
 from example_study import POTENTIALS, options, run_script, wanted  # noqa: E402
 from snapshots import picture, surfaces  # noqa: E402
 
@@ -90,8 +90,8 @@ def start(arguments, folder, variables):
     shape, _, vertices = variables["shape"].partition("_")
     if shape == "spheroid":
         frequency = round(((int(vertices) - 2) / 10)**0.5)
-        subprocess.run([os.path.join(POTENTIALS, "make_template.py"), "spheroid", "--axis-ratio", f"{ASPECT:.6f}", "--diameter", "7.82",
-                        "--frequency", str(frequency), "--output", os.path.join(folder, f"{variables['shape']}.mol")],
+        subprocess.run([sys.executable, os.path.join(POTENTIALS, "make_template.py"), "spheroid", "--axis-ratio", f"{ASPECT:.6f}",
+                        "--diameter", "7.82", "--frequency", str(frequency), "--output", os.path.join(folder, f"{variables['shape']}.mol")],
                        check=True, stdout=subprocess.DEVNULL)
     for name in os.listdir(POTENTIALS):
         if name.endswith((".mol", ".material")):
@@ -179,7 +179,7 @@ def draw(arguments, rows):
     cost.set(xlabel="timestep / µs", ylabel="solves per physical ms")
     cost.legend(frameon=False)
     figure.tight_layout()
-    figure.savefig(os.path.join(HERE, "stiff.png"), dpi=90)
+    figure.savefig(arguments.output / "stiff.png", dpi=90)
 
 
 def best_aspect(history):
@@ -189,18 +189,23 @@ def best_aspect(history):
 
 
 def main():
-    arguments = options(__doc__).parse_args()
-    path = os.path.join(HERE, "stiff.csv")
+    arguments = command_line.parse(options(__doc__, (series for series, _ in cases())), HERE)
+    path = arguments.output / "stiff.csv"
 
     rows = read(path)
     known = {(row["series"], *(row[name] for name in BASE)) for row in rows}
+    missing = False
     for series, variables in cases():
-        if (series, *(text(variables[name]) for name in BASE)) in known or not wanted(arguments, series):
+        if (series, *(text(variables[name]) for name in BASE)) in known:
+            continue
+        if not wanted(arguments, series):
+            missing = True
             continue
         print(series, variables, flush=True)
         rows.append(run(arguments, series, variables))
         write(path, rows)
-    draw(arguments, rows)
+    if not missing:
+        draw(arguments, rows)
     print(f"Jeffery's period for an aspect ratio of {ASPECT:.4f}: {jeffery_period(ASPECT):.2f}")
 
 

@@ -2,19 +2,19 @@
 """Diameters of a red cell in optical tweezers against load: material, contact, mesh, grid spacing and box.
 
 Runs in.stretch for a list of cases, compares with the references of examples/reference and writes stretch.csv and
-stretch.png. Cases that stretch.csv already holds are not run again.
+stretch.png to a folder. Cases that its stretch.csv already holds are not run again.
 
-    study.py [--lmp ../../build/lmp_rbc] [--ranks 1] [--only set mesh]
+    study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1] [--only set mesh]
 """
 
 import os
 import sys
 import tempfile
 
-import numpy as np
-
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [os.path.join(HERE, "..", "..", folder) for folder in ("scripts", "potentials")]
+import command_line  # noqa: E402
+import numpy as np  # noqa: E402
 import make_template  # noqa: E402
 from example_study import options, run_cases, run_script  # noqa: E402
 from read_ave_time import read_csv, read_table  # noqa: E402
@@ -158,11 +158,11 @@ def plot(table, path):
 
 
 def main():
-    arguments = options(__doc__).parse_args()
-    table = run_cases(arguments, os.path.join(HERE, "stretch.csv"), RESULTS, cases(), run)
+    arguments = command_line.parse(options(__doc__, (series for series, *_ in cases())), HERE)
+    table = run_cases(arguments, arguments.output / "stretch.csv", RESULTS, cases(), run)
     table = {label: [dict(zip(RESULTS, row)) for row in rows] for label, rows in table.items()}
     report(table)
-    plot(table, os.path.join(HERE, "stretch.png"))
+    plot(table, arguments.output / "stretch.png")
 
 
 if __name__ == "__main__":

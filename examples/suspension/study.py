@@ -2,11 +2,12 @@
 """Blood sheared at 10, 60 and 100 /s, with adhesion and without: runs in.suspension in a folder for each case, and draws the
 relative viscosity, the sizes of aggregates as Figure 12 of the paper, the gaps between cells, and the cells.
 
-  study.py --folder runs --ranks 2      # cases of which the folder is there already are not run again
+  study.py --output FOLDER --ranks 2      # cases of which the folder is there already are not run again
 
 Folders may hold runs of different numbers of cells.
 
-Writes suspension.csv and suspension.png here. --only names cases: a10, a60, a100 adhesive, r10, r60, r100 repulsive.
+Writes suspension.csv and suspension.png to FOLDER, where the runs are, too, without --folder. --only names cases: a10, a60,
+a100 adhesive, r10, r60, r100 repulsive.
 """
 import csv
 import re
@@ -14,15 +15,15 @@ import subprocess
 import sys
 from pathlib import Path
 
-import matplotlib
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
-
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
+import command_line  # noqa: E402
+import matplotlib  # noqa: E402
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader  # noqa: E402
 import example_study  # noqa: E402
 from plot_aggregates import COLORS, mean_classes  # noqa: E402
 from read_ave_time import read_ave_time  # noqa: E402
@@ -130,10 +131,11 @@ def draw(cases, pictures, path):
 
 
 def main():
-    parser = example_study.options(__doc__)
-    parser.add_argument("--folder", type=Path, default=HERE / "runs", help="of the runs")
+    parser = example_study.options(__doc__, [f"{kind}{rate}" for kind in KINDS for rate in RATES])
+    example_study.add_runs_folder(parser)
     parser.add_argument("--cells", type=int, default=512)
-    arguments = parser.parse_args()
+    arguments = command_line.parse(parser, HERE)
+    arguments.folder = example_study.runs_folder(arguments)
     cases, pictures = {}, {}
     for kind, work in KINDS.items():
         for rate in RATES:
@@ -151,11 +153,11 @@ def main():
             print(name, {key: value for key, value in cases[name].items() if np.isscalar(value)}, flush=True)
             if kind == "a":
                 pictures[str(rate)] = folder / "last.png"
-                subprocess.run([SCRIPTS / "render_cells.py", surfaces(folder)[-1][1], "-o", pictures[str(rate)],
+                subprocess.run([sys.executable, SCRIPTS / "render_cells.py", surfaces(folder)[-1][1], "-o", pictures[str(rate)],
                                 "--color", "aggregate", "--view", "20", "15", "--size", "900x900", "--zoom", "1.2"],
                                check=True)
-    write(cases, HERE / "suspension.csv")
-    draw(cases, pictures, HERE / "suspension.png")
+    write(cases, arguments.output / "suspension.csv")
+    draw(cases, pictures, arguments.output / "suspension.png")
 
 
 if __name__ == "__main__":

@@ -2,11 +2,13 @@
 """Tank-treading of a red cell beside experiments: frequency, inclination, and the stress below which the cell tumbles.
 
 Runs in.tank-treading at many shear rates, a fraction of a minute to two minutes each on one core, and keeps what it
-finds in tank-treading.csv: all parts, or those named, for which it measures anew (--part frequency --case thinning).
-Then it prints the tables and draws tank-treading.png and inclination.png; with --draw it does only that.
+finds in tank-treading.csv of a folder: all parts, or those named, for which it measures anew (--part frequency --case thinning).
+Then it prints the tables and draws tank-treading.png and inclination.png there; with --draw it does only that, from the table of
+the repository if the folder has none.
+
+    study.py --output FOLDER [--part frequency] [--case thinning] [--draw]
 """
 
-import argparse
 import csv
 import subprocess
 import sys
@@ -14,17 +16,17 @@ import tempfile
 from collections import namedtuple
 from pathlib import Path
 
-import matplotlib
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-import numpy as np
-
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
+import command_line  # noqa: E402
+import matplotlib  # noqa: E402
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
 from membrane_motion import angles, read_dump, revolutions  # noqa: E402
 
 REFERENCE = HERE.parent / "reference"
-TABLE = HERE / "tank-treading.csv"
+TABLE = "tank-treading.csv"
 FROM = 15    # strain from which frequencies and angles count
 STEP = 0.2    # of the input script
 FASTEST = 200    # shear rate from which it is halved
@@ -66,8 +68,8 @@ def motion(folder, step, start=FROM):
 class Study:
     """Runs the scene and adds a row to the table for each run."""
 
-    def __init__(self, lmp, potentials):
-        self.lmp, self.potentials = lmp, potentials
+    def __init__(self, lmp, potentials, table):
+        self.lmp, self.potentials, self.table = lmp, potentials, table
 
     def measure(self, part, case, medium, rate, **variables):
         variables = dict(variables, medium=medium, rate=rate, templates=self.potentials)
@@ -79,7 +81,7 @@ class Study:
                 print(f"{part}, {case}, {rate} /s: " + (Path(folder) / "out").read_text()[-400:])
                 return None
             row = Row(part, case, medium, rate, *motion(folder, variables.get("step", STEP)))
-        append(row)
+        write(self.table, [*read(self.table), row])
         print(describe(row), flush=True)
         return row
 
@@ -129,24 +131,20 @@ def reference(name):
                          for line in stream if line[0].isdigit()])
 
 
-def read():
-    if not TABLE.exists():
+def read(table):
+    if not table.exists():
         return []
-    with open(TABLE, encoding="utf-8") as stream:
+    with open(table, encoding="utf-8") as stream:
         return [Row(*row[:2], *(float(word) for word in row[2:])) for row in list(csv.reader(stream))[1:]]
 
 
-def write(rows):
-    with open(TABLE, "w", encoding="utf-8") as stream:
+def write(table, rows):
+    with open(table, "w", encoding="utf-8") as stream:
         stream.write("part,case,medium_mPas,rate_1_s,f_over_rate,inclination_deg,range_deg\n")
         stream.writelines(f"{row.part},\"{row.case}\"," + ",".join(f"{value:.5g}" for value in row[2:]) + "\n" for row in rows)
 
 
-def append(row):
-    write([*read(), row])
-
-
-def draw_frequency(rows):
+def draw_frequency(rows, path):
     data = reference("03b_ttf_fischer_28p9mPas_binned.csv")
     figure, axis = plt.subplots(figsize=(7, 4.6))
     axis.errorbar(data[:, 0], data[:, 1], data[:, 2], fmt="ok", capsize=3, label="Fischer, 28.9 mPa s: mean, s.d. over cells")
@@ -167,10 +165,10 @@ def draw_frequency(rows):
     axis.legend(fontsize=8)
     axis.grid(alpha=0.3)
     figure.tight_layout()
-    figure.savefig(HERE / "tank-treading.png", dpi=110)
+    figure.savefig(path, dpi=110)
 
 
-def draw_inclination(rows):
+def draw_inclination(rows, path):
     data = reference("03c_rbc_inclination_fischer2015.csv")
     figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4.4))
     for n, medium in enumerate(INCLINATION):
@@ -204,24 +202,26 @@ def draw_inclination(rows):
         axis.legend(fontsize=7)
         axis.grid(alpha=0.3)
     figure.tight_layout()
-    figure.savefig(HERE / "inclination.png", dpi=110)
+    figure.savefig(path, dpi=110)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--lmp", default=HERE.parents[1] / "build" / "lmp_rbc")
+    parser = command_line.parser(__doc__)
+    command_line.add_results(parser)
+    parser.add_argument("--lmp", type=Path, default=HERE.parents[1] / "build" / "lmp_rbc")
     parser.add_argument("--part", action="append", choices=PARTS, help="measure this part only")
     parser.add_argument("--case", action="append", choices=[*CASES, *CONVERGENCE], help="and of it this case only")
     parser.add_argument("--draw", action="store_true", help="do not run")
-    options = parser.parse_args()
+    options = command_line.parse(parser, HERE)
     if not options.draw:
-        study = Study(options.lmp, HERE.parents[1] / "potentials")
+        table = options.output / TABLE
+        study = Study(options.lmp.resolve(), HERE.parents[1] / "potentials", table)
         for part in options.part or PARTS:
-            write([row for row in read() if row.part != part or (options.case and row.case not in options.case)])
+            write(table, [row for row in read(table) if row.part != part or (options.case and row.case not in options.case)])
             PARTS[part](study, options.case)
-    rows = read()
-    draw_frequency(rows)
-    draw_inclination(rows)
+    rows = read(command_line.kept(options.output, HERE, TABLE))
+    draw_frequency(rows, options.output / "tank-treading.png")
+    draw_inclination(rows, options.output / "inclination.png")
     for row in rows:
         if row.part == "convergence":
             print(describe(row))

@@ -1,23 +1,22 @@
 #!/usr/bin/python3
 """Cells per block over time, of a straight tube and of one with a throat, as Figure 7 of the paper.
 
-    draw.py straight/ throat/ [-o throat.png]
+    draw.py straight/ throat/ --output FOLDER
 
-The folders are those in which in.throat ran, with -var throat 3 and without. Writes a CSV file of the same name as well: the
+The first two folders are those in which in.throat ran, with -var throat 3 and without. Writes throat.png and throat.csv: the
 lines of both blocks.dat.
 """
-import argparse
 import csv
 import sys
 from pathlib import Path
 
-import matplotlib
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-import numpy as np
-
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
+import command_line  # noqa: E402
+import matplotlib  # noqa: E402
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
 from read_ave_time import read_table  # noqa: E402
 
 BLOCKS = "v_block0", "v_block1", "v_block2"
@@ -68,13 +67,13 @@ def draw(folders, path):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_line.parser(__doc__)
     parser.add_argument("straight", type=Path)
     parser.add_argument("throat", type=Path)
-    parser.add_argument("-o", "--output", type=Path, default=HERE / "throat.png")
-    arguments = parser.parse_args()
+    command_line.add_results(parser)
+    arguments = command_line.parse(parser, HERE)
     folders = arguments.straight, arguments.throat
-    with open(arguments.output.with_suffix(".csv"), "w", newline="", encoding="ascii") as stream:
+    with open(arguments.output / "throat.csv", "w", newline="", encoding="ascii") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(("vessel", "seconds", "block0", "block1", "block2", "mean_velocity_um_s", "lengths_gone"))
         for folder, vessel in zip(folders, ("straight", "throat")):
@@ -91,7 +90,7 @@ def main():
                 rows = (gone >= length) & (gone < length + 1)
                 before, behind = (mean_over_time(time[rows], table[name][rows]) for name in (BLOCKS[0], BLOCKS[2]))
                 print(f"  length {length + 1}: BLOCK 0 over BLOCK 2 {before / behind:.3f}")
-    draw(folders, arguments.output)
+    draw(folders, arguments.output / "throat.png")
 
 
 if __name__ == "__main__":

@@ -4,17 +4,17 @@
 Runs in.tube-poiseuille in a folder, unless it is there, and writes tube-poiseuille.csv (a row per cell) and
 tube-poiseuille.png.
 
-  study.py --folder run [--lmp ../../build/lmp_rbc]
+  study.py --output FOLDER [--folder run] [--lmp ../../build/lmp_rbc]
 """
 import csv
 import subprocess
 import sys
 from pathlib import Path
 
-import numpy as np
-
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
+import command_line  # noqa: E402
+import numpy as np  # noqa: E402
 import example_study  # noqa: E402
 from read_ave_time import read_ave_time  # noqa: E402
 from snapshots import surfaces  # noqa: E402
@@ -178,9 +178,9 @@ def write(rows, path):
 
 def main():
     parser = example_study.options(__doc__)
-    parser.add_argument("--folder", type=Path, default=HERE / "run", help="of the run")
-    arguments = parser.parse_args()
-    folder = arguments.folder
+    example_study.add_runs_folder(parser)
+    arguments = command_line.parse(parser, HERE)
+    folder = example_study.runs_folder(arguments)
     if not (folder / "log.lammps").exists():
         folder.mkdir(parents=True, exist_ok=True)
         command = [arguments.lmp, "-in", HERE / "in.tube-poiseuille", "-var", "templates", example_study.POTENTIALS]
@@ -194,10 +194,10 @@ def main():
     late = cells.periods >= min(START, cells.periods[-1] / 2)
     print(f"until {cells.time[-1]:.0f} ms; viscosity over that of plasma {cells.relative[late].mean():.3f}; nearest vertex to the "
           f"wall {cells.gap.min():.3f} um; volumes within {abs(cells.volume / cells.volume[0] - 1).max():.1e}")
-    write(rows, HERE / "tube-poiseuille.csv")
+    write(rows, arguments.output / "tube-poiseuille.csv")
     picture = folder / "last.png"
     snapshot(surfaces(folder)[-1][1], wall, axis, picture)
-    draw(cells, rows, wall, axis, picture, HERE / "tube-poiseuille.png")
+    draw(cells, rows, wall, axis, picture, arguments.output / "tube-poiseuille.png")
 
 
 if __name__ == "__main__":

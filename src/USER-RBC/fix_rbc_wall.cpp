@@ -3,8 +3,10 @@
 #include "atom.h"
 #include "coupling/rbc_kernel_words.h"
 #include "coupling/rbc_rigid_walls.h"
+#include "coupling/rbc_wall_spacing.h"
 #include "error.h"
 #include "fix_rbc_fluid.h"
+#include "group.h"
 #include "modify.h"
 #include "update.h"
 
@@ -80,6 +82,10 @@ void FixRBCWall::init()
 void FixRBCWall::setup_post_neighbor()
 {
   wall.start_run();
+  const bigint atoms = group->count(igroup);
+  if (atoms != atoms_checked)
+    warn_of_coarse_wall(lmp, wall, fluid_fix->driven_flow().settings().cells);
+  atoms_checked = atoms;
   post_neighbor();
 }
 

@@ -40,7 +40,8 @@ class FixRBCWall : public Fix, public FluidClient {
   std::string fluid;
   WallGroup wall;
   class FixRBCFluid *fluid_fix = nullptr;
-  bigint measured = -1;    // evaluation of the fluid
+  bigint atoms_checked = 0;    // whose spacing is known
+  bigint measured = -1;        // evaluation of the fluid
   std::array<double, 6> total{};
 
   WallGroup::Settings parse(int, char **);

@@ -4,6 +4,7 @@
 #include "domain.h"
 #include "error.h"
 #include "support/rbc_arguments.h"
+#include "vessel/periodic_lids.h"
 #include "vessel/stl_file.h"
 
 #include <algorithm>
@@ -40,6 +41,7 @@ RegionRBCMesh::RegionRBCMesh(LAMMPS *lmp, int narg, char **arg) : Region(lmp, na
     box = {Vec3(domain->boxlo),
            Vec3(domain->prd),
            {domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0}};
+  check_lids(arg[2], rbc::find_lids(triangles, box));
   std::copy_n(domain->boxlo, 3, box_lo);
   std::copy_n(domain->boxhi, 3, box_hi);
   try {
@@ -93,6 +95,30 @@ std::vector<Triangle> RegionRBCMesh::read(const std::string &path) const
   static_assert(sizeof(Triangle) == 9 * sizeof(double), "triangles are sent as numbers");
   MPI_Bcast(triangles.data(), 9 * sizes[0], MPI_DOUBLE, 0, world);
   return triangles;
+}
+
+/* ----------------------------------------------------------------------
+   a lid has no thickness and nothing behind it but the next image of the vessel
+------------------------------------------------------------------------- */
+
+void RegionRBCMesh::check_lids(const char *file, const std::array<rbc::Lids, 3> &lids) const
+{
+  for (int d = 0; d < 3; ++d) {
+    const char along = static_cast<char>('x' + d);
+    const auto &[below, above] = lids[d].triangles;
+    if (lids[d].facing)
+      error->all(
+          FLERR, 2,
+          "Region rbc/mesh file {}: {} triangles on the periodic face {} = {:.6g} and {} on "
+          "the one opposite, {} = {:.6g}, are lids across a vessel that goes on through these "
+          "faces: leave them out of the file, or make the box longer than a vessel that ends",
+          file, below, along, domain->boxlo[d], above, along, domain->boxhi[d]);
+    if ((below > 0 || above > 0) && comm->me == 0)
+      error->warning(FLERR,
+                     "Region rbc/mesh file {}: {} triangles close the vessel on the periodic face "
+                     "{} = {:.6g}, and nothing lies opposite: does its length differ from the box?",
+                     file, below + above, along, below > 0 ? domain->boxlo[d] : domain->boxhi[d]);
+  }
 }
 
 /* ---------------------------------------------------------------------- */

@@ -8,8 +8,10 @@ RegionStyle(rbc/mesh,RegionRBCMesh);
 #define LMP_REGION_RBC_MESH_H
 
 #include "region.h"
+#include "vessel/periodic_lids.h"
 #include "vessel/triangulated_solid.h"
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,6 +32,7 @@ class RegionRBCMesh : public Region {
   std::unique_ptr<rbc::TriangulatedSolid> solid;
 
   std::vector<rbc::Triangle> read(const std::string &) const;
+  void check_lids(const char *, const std::array<rbc::Lids, 3> &) const;
   void warn_if_beyond_box(const char *) const;
   bool has_openings() const;
   int add_nearest(double *, double, bool);

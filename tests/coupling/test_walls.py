@@ -268,6 +268,36 @@ class Vessel(unittest.TestCase):
         self.assertLess(last["f_w[9]"], 3)
 
 
+class Spacing(unittest.TestCase):
+    """Of the atoms, on lattices that go on through the periodic sides."""
+    BOX = (24, 24, 24)
+
+    def warnings(self, across, along, ranks=1, grid="dx 1.0", steps="run 0"):
+        wall = [(x, y, 12.0) for x in np.arange(0.3, 24, across) for y in np.arange(0.2, 24, along)]
+        printed = walls(self.BOX, wall, ranks=ranks, run=steps,
+                        fluid=BASE["fluid"].replace("dx 1.0", grid)).printed
+        return re.findall(r"WARNING: Fix rbc/wall w: (\d+) of (\d+) atoms are more than 2.25 spacings of "
+                          r"the fluid's grid from those beside them \((\S+) in the mean of all\)", printed)
+
+    def test_a_coarse_wall_is_a_warning_on_any_tasks(self):
+        for ranks in (1, 2, 4):
+            self.assertEqual(self.warnings(3, 3, ranks), [("64", "64", "3")])
+
+    def test_lines_of_close_atoms_are_no_surface(self):
+        self.assertEqual(self.warnings(4, 0.5), [("288", "288", "4")])
+
+    def test_counts_in_cells_of_the_grid(self):
+        self.assertEqual(self.warnings(3, 6, grid="grid 24 12 24"), [("32", "32", "3")])
+        self.assertEqual(self.warnings(1.5, 3, grid="grid 24 12 24"), [])
+
+    def test_a_wall_as_advised_is_none(self):
+        for spacing in (1, 1.5, 2):
+            self.assertEqual(self.warnings(spacing, spacing), [])
+
+    def test_comes_once(self):
+        self.assertEqual(len(self.warnings(3, 3, steps="run 1\nrun 1")), 1)
+
+
 class Errors(unittest.TestCase):
     BOX = (8, 8, 8)
 

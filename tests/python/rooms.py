@@ -3,8 +3,8 @@
 `python3 tests/python/rooms.py` prints the table of arrows, `--write` puts it into CONTRIBUTING.md.
 """
 
+import argparse
 import re
-import sys
 from collections import Counter
 from pathlib import Path
 
@@ -148,14 +148,15 @@ def written_table(text):
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--write", action="store_true", help="put the table into CONTRIBUTING.md")
+    write = parser.parse_args().write
     table = Code().table()
-    if sys.argv[1:] == ["--write"]:
+    if write:
         path = ROOT / "CONTRIBUTING.md"
         text = path.read_text()
         before, behind = text.split(BEGIN + "\n")[0], text.split("\n" + END)[1]
         path.write_text(f"{before}{BEGIN}\n{table}\n{END}{behind}")
-    elif sys.argv[1:]:
-        sys.exit(__doc__)
     else:
         print(table)
 

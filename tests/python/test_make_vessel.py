@@ -82,11 +82,26 @@ class Vessel(unittest.TestCase):
 
     def test_bad_sizes(self):
         for words, message in ((("tube", "--diameter", -1, "x.stl"), "--diameter -1.0 must be > 0"),
+                               (("tube", "--length", "inf", "x.stl"), "--length inf must be > 0 and finite"),
+                               (("tube", "--length", "nan", "x.stl"), "--length nan must be > 0 and finite"),
+                               (("throat", "--throat-diameter", 4, "x.stl"),
+                                "--throat-diameter 4 must not be above the --diameter 3"),
+                               (("tube", "--throat-diameter", 2, "x.stl"), "--throat-diameter is for the shape throat, not tube"),
+                               (("tube", "--edge", 1e-6, "x.stl"), "--edge 1e-06 makes about 3e+14 triangles"),
                                (("throat", "--taper", 9, "x.stl"), "throat and tapers are 19 long, the vessel 15"),
                                (("bifurcation", "--distance", 2, "x.stl"), "--distance 2 leaves the daughters")):
             done = attempt(*words)
             self.assertEqual(done.returncode, 2)
             self.assertIn(message, done.stdout)
+
+    def test_a_throat_may_be_as_wide_as_the_tube(self):
+        corners = make("throat", "--throat-diameter", 3)
+        np.testing.assert_allclose(np.hypot(*corners.reshape(-1, 3)[:, 1:].T), 1.5, rtol=1e-6)
+
+    def test_output_that_cannot_be_written(self):
+        for path, message in (("/nothere/x.stl", "No such file or directory"), ("/", "Is a directory")):
+            done = attempt("tube", path)
+            self.assertEqual((done.returncode, done.stdout), (1, f"make_vessel.py: {path}: {message}\n"))
 
 
 if __name__ == "__main__":

@@ -119,6 +119,8 @@ class RoundTrip(Files):
         shape = np.array(CORNERS) + [50, -7, 3]
         for name, content in (("a.stl", ascii_stl(shape, OCTAHEDRON)), ("b.stl", binary_stl(shape, OCTAHEDRON)),
                               ("c.ply", ascii_ply(shape, OCTAHEDRON)), ("d.off", off(shape, OCTAHEDRON)),
+                              ("f.stl", "\ufeff\n" + ascii_stl(shape, OCTAHEDRON).upper()),
+                              ("g.off", "\ufeff" + off(shape, OCTAHEDRON)),
                               ("E.OFF", off(shape, OCTAHEDRON).replace("OFF\n# made by a test\n", "OFF "))):
             with self.subTest(name):
                 points, triangles = self.mesh(self.write(name, content))

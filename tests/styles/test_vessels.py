@@ -54,6 +54,24 @@ def nearest(points, others):
     return least
 
 
+def write_capped_tube(path, ends):
+    """A tube of radius 9 from x = 0 to 24 about y = z = 0, with flat lids at these ends, as CAD programs export it."""
+    sides, rings = 32, np.linspace(0, 24, 13)
+
+    def at(x, j):
+        return x, 9 * np.cos(2 * np.pi * j / sides), 9 * np.sin(2 * np.pi * j / sides)
+    triangles = []
+    for j in range(sides):
+        for a, b in zip(rings, rings[1:]):
+            triangles += [(at(a, j), at(a, j + 1), at(b, j)), (at(a, j + 1), at(b, j + 1), at(b, j))]
+        triangles += [((x, 0, 0), *((at(x, j + 1), at(x, j)) if x == 0 else (at(x, j), at(x, j + 1)))) for x in ends]
+    with open(path, "w", encoding="ascii") as file:
+        for triangle in triangles:
+            corners = "".join(f"vertex {x:.9g} {y:.9g} {z:.9g}\n" for x, y, z in triangle)
+            file.write(("" if file.tell() else "SOLID tube\n") + f"facet normal 0 0 0\nouter loop\n{corners}"
+                       "endloop\nendfacet\n")
+
+
 class Case(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -95,11 +113,27 @@ class Mesh(Case):
         self.assertGreater(abs(forces[0]).max(), 0.8)
         self.assertLess(abs(np.linalg.norm(forces[0], axis=1) - np.linalg.norm(forces[1], axis=1)).max(), 1.05 * sag)
 
+    def test_lids_on_periodic_faces_are_an_error(self):
+        write_capped_tube("capped.stl", (0, 24))
+        capped = "region tube rbc/mesh ../capped.stl"
+        self.error("capped.stl: 32 triangles on the periodic face x = 0 and 32 on the one opposite, x = 24, are lids",
+                   before=capped + " shift 0 11 12")
+        wider = "region box block 0 25 0 22 0 24"
+        fill = "\ncreate_atoms 1 random 2000 1 tube"
+        for shift, box, boundary, warned in ((0.5, wider, "p p p", False), (0, BOX, "f p p", False),
+                                             (0, wider, "p p p", True), (1, wider, "p p p", True)):
+            run = vessel(before=f"{capped} shift {shift} 11 12{fill}", box=box, boundary="boundary " + boundary, last=None)
+            self.assertEqual("32 triangles close the vessel on the periodic face x" in run.printed, warned)
+            along = run.dump()("x")
+            self.assertGreaterEqual(along.min(), shift)
+            self.assertLessEqual(along.max(), 24 + shift)
+
     def test_errors(self):
         bad = "solid x\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\nendsolid\n"
         with open("bad.stl", "w") as file:
             file.write(bad)
         self.error("nothere.stl: cannot be opened", before="region tube rbc/mesh nothere.stl")
+        self.error("Region rbc/mesh file /tmp: is a folder, not a file", before="region tube rbc/mesh /tmp")
         self.error("is not closed: the edge from (", before="region tube rbc/mesh ../bad.stl shift 3 3 3")
         self.error("lies on no periodic face", before=MESH, boundary="boundary f p p")
         self.error("lies on no periodic face", before=MESH, box="region box block 0 25 0 22 0 24")

@@ -59,6 +59,31 @@ TEST(STLFile, BothFormatsGiveTheTriangles)
   compare(binary(triangles, "solid, in spite of its name"), 1e-7);
 }
 
+/// As programs write them that follow the format less closely.
+TEST(STLFile, TextIsReadHoweverItIsSpelt)
+{
+  const std::vector<Triangle> triangles = test::triangles_of(test::icosphere(1));
+  const std::string plain = text(triangles);
+  const auto replaced = [](std::string words, const std::string &from, const std::string &to) {
+    for (std::size_t at = words.find(from); at != std::string::npos;
+         at = words.find(from, at + to.size()))
+      words.replace(at, from.size(), to);
+    return words;
+  };
+  std::string capitals = plain;
+  for (char &letter : capitals)
+    if (letter != 'e') letter = static_cast<char>(std::toupper(letter));    // 1e-17 stays
+  for (const std::string &words :
+       {capitals, "\xef\xbb\xbf" + plain, "\n\r\n  " + plain, "\xef\xbb\xbf\n" + plain,
+        replaced(plain, "\n", "\r\n"), replaced(plain, "\n", "\r"),
+        replaced(plain, "a title", "a vertex of Vertex 1"), replaced(plain, " a title", "")}) {
+    const std::vector<Triangle> read = rbc::read_stl(write(words));
+    ASSERT_EQ(read.size(), triangles.size());
+    for (std::size_t t = 0; t < read.size(); ++t)
+      for (int c = 0; c < 3; ++c) ASSERT_EQ(read[t][c], triangles[t][c]) << words.substr(0, 40);
+  }
+}
+
 TEST(STLFile, SaysWhatIsWrong)
 {
   const auto expect = [](const std::string &path, const std::string &part) {
@@ -72,6 +97,8 @@ TEST(STLFile, SaysWhatIsWrong)
   };
   const std::vector<Triangle> triangles = test::triangles_of(test::icosphere(1));
   expect("no_such_file.stl", "cannot be opened");
+  expect(testing::TempDir(), "is a folder, not a file");
+  expect("/proc/self/mem", "cannot be read");
   expect(write("ply\nformat ascii 1.0\n"), "neither");
   std::string bytes = binary(triangles, "cut off");
   bytes.pop_back();

@@ -12,7 +12,6 @@ namespace rbc {
 namespace {
 
 constexpr double weld_share = 1e-6;    // of the diagonal: corners nearer to each other are one
-constexpr double face_share = 1e-5;    // of the box: edges nearer to a face lie on it
 
 void require(bool condition, const std::string &problem)
 {

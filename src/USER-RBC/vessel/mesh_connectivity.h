@@ -10,6 +10,9 @@
 
 namespace rbc {
 
+/// Of the length of a box: corners nearer to a face lie on it.
+constexpr double face_share = 1e-5;
+
 /// Which triangles of a surface meet, also behind periodic faces of a box through which the
 /// surface goes on.
 class MeshConnectivity {

@@ -3,7 +3,9 @@
 #include <cctype>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <ios>
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
@@ -40,17 +42,44 @@ std::vector<Triangle> parse_binary(const std::string &bytes)
   return triangles;
 }
 
+void to_lower(std::string &word)
+{
+  for (char &letter : word)
+    letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+}
+
+/// Without the mark that some editors put before a text.
+std::string without_mark(const std::string &bytes)
+{
+  const std::string mark = "\xef\xbb\xbf";
+  return bytes.compare(0, mark.size(), mark) == 0 ? bytes.substr(mark.size()) : bytes;
+}
+
+bool is_text(const std::string &text)
+{
+  const std::string keyword = "solid";
+  std::istringstream words(text);
+  std::string word;
+  words >> word;
+  to_lower(word);
+  return word.compare(0, keyword.size(), keyword) == 0;
+}
+
+/// The title may hold any words, so that a vertex counts within a facet only.
 std::vector<Triangle> parse_text(const std::string &text)
 {
   std::istringstream words(text);
   std::string word;
   std::vector<Triangle> triangles;
   Triangle triangle;
+  bool in_facet = false;
   int corners = 0;
   while (words >> word) {
-    for (char &letter : word) letter = static_cast<char>(std::tolower(letter));
+    to_lower(word);
     const std::string where = " in triangle " + std::to_string(triangles.size() + 1);
-    if (word == "vertex") {
+    if (word == "facet") {
+      in_facet = true;
+    } else if (word == "vertex" && in_facet) {
       if (corners == 3) throw std::invalid_argument("more than three corners" + where);
       Vec3 &corner = triangle[corners++];
       if (!(words >> corner[0] >> corner[1] >> corner[2]))
@@ -59,24 +88,42 @@ std::vector<Triangle> parse_text(const std::string &text)
       if (corners != 3) throw std::invalid_argument("less than three corners" + where);
       triangles.push_back(triangle);
       corners = 0;
+      in_facet = false;
     }
   }
   if (corners > 0) throw std::invalid_argument("the file ends within a triangle");
   return triangles;
 }
 
+std::string read_bytes(const std::string &path)
+{
+  std::error_code unknown;
+  if (std::filesystem::is_directory(path, unknown))
+    throw std::invalid_argument("is a folder, not a file");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::invalid_argument("cannot be opened");
+  try {
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  } catch (const std::ios_base::failure &) {
+    throw std::invalid_argument("cannot be read");
+  }
+}
+
+std::vector<Triangle> parse(const std::string &bytes)
+{
+  if (is_binary(bytes)) return parse_binary(bytes);
+  const std::string text = without_mark(bytes);
+  if (!is_text(text))
+    throw std::invalid_argument("is neither a text STL file, which starts with solid, nor a binary "
+                                "one, whose length follows from its number of triangles");
+  return parse_text(text);
+}
+
 }    // namespace
 
 std::vector<Triangle> read_stl(const std::string &path)
 {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::invalid_argument("cannot be opened");
-  const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  const bool binary = is_binary(bytes);
-  if (!binary && bytes.compare(0, 5, "solid") != 0)
-    throw std::invalid_argument("is neither a text STL file, which starts with solid, nor a binary "
-                                "one, whose length follows from its number of triangles");
-  std::vector<Triangle> triangles = binary ? parse_binary(bytes) : parse_text(bytes);
+  std::vector<Triangle> triangles = parse(read_bytes(path));
   if (triangles.empty()) throw std::invalid_argument("holds no triangles");
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (const Vec3 &corner : triangles[t])

@@ -1,0 +1,100 @@
+"""Scripts that build say what a machine lacks, as sudo, home, network or Debian, and leave nothing."""
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
+TOOLS = ("bash", "dirname", "basename", "grep", "awk", "nproc", "mktemp", "mkdir", "rm", "rmdir",
+         "cat", "md5sum", "cut", "env", "find", "mv", "tar", "touch", "gzip")
+ARCHIVE = "http://archive.invalid/debian"
+
+
+def run(script, *words, **options):
+    return subprocess.run(["bash", script, *words], text=True, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, check=False, timeout=60, **options)
+
+
+class Machine(unittest.TestCase):
+    """A PATH with little on it."""
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+        for name in ("bin", "tmp"):
+            (self.folder / name).mkdir()
+        for name in TOOLS:
+            (self.folder / "bin" / name).symlink_to(shutil.which(name))
+
+    def tool(self, name, script):
+        path = self.folder / "bin" / name
+        path.write_text(f"#!/bin/bash\n{script}\n")
+        path.chmod(0o755)
+
+    def apt_get(self, case):
+        """All packages are there, and apt-get knows an archive."""
+        self.tool("dpkg-query", 'echo "install ok installed"')
+        self.tool("apt-get", 'case $1 in indextargets) . /etc/os-release && '
+                             f'echo "$VERSION_CODENAME main {ARCHIVE}" ;; {case} esac')
+
+    def fails(self, script, *words, **environment):
+        """What a script says that ends with an error."""
+        variables = {"PATH": str(self.folder / "bin"), "TMPDIR": str(self.folder / "tmp"),
+                     "USER_RBC_CACHE": str(self.folder / "cache"), **environment}
+        done = run(SCRIPTS / script, *words,
+                   env={name: value for name, value in variables.items() if value})
+        self.assertNotEqual(done.returncode, 0, done.stdout)
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["bin", "tmp"])
+        self.assertEqual(list((self.folder / "tmp").iterdir()), [])
+        return done.stdout
+
+    def test_without_a_home(self):
+        for script in ("build.sh", "lammps.sh", "test.sh"):
+            self.assertIn(f"{script}: HOME is not set: set USER_RBC_CACHE",
+                          self.fails(script, USER_RBC_CACHE=""))
+
+    def test_of_an_unknown_version(self):
+        self.assertIn("build.sh: LAMMPS version 'old' is not known; use 4Feb2025 or newest",
+                      self.fails("build.sh", "old"))
+
+    def test_without_root_and_sudo(self):
+        self.tool("id", "echo 1000")
+        self.tool("apt-get", "exit 1")
+        self.tool("dpkg-query", '[ "${@: -1}" = cmake ] || echo "install ok installed"')
+        message = ("dependencies.sh: these Debian packages are missing: cmake; "
+                   "install them as root: apt-get install ")
+        self.assertIn(message, self.fails("build.sh"))
+        self.tool("sudo", "exit 1")    # would ask for a password
+        self.assertIn(message, self.fails("build.sh"))
+
+    def test_without_debian(self):
+        self.assertIn("(there is no apt-get here", self.fails("build.sh"))
+
+    def test_without_a_network(self):
+        self.apt_get('*) echo "E: Could not resolve archive.invalid" >&2; exit 100 ;;')
+        printed = self.fails("build.sh")
+        self.assertIn("lammps.sh: the LAMMPS 4Feb2025 source could not be fetched from " + ARCHIVE,
+                      printed)
+        self.assertIn("is there a network?", printed)
+
+    def test_with_an_archive_that_is_cut_off(self):
+        self.apt_get("source) echo cut off > lammps_1.orig.tar.gz ;;")
+        self.fails("build.sh", USER_RBC_CACHE=str(self.folder / "tmp"))
+
+
+class Benchmarks(unittest.TestCase):
+    def test_ask_where_results_go_before_they_build(self):
+        scripts = sorted((SCRIPTS.parent / "bench").glob("*.sh"))
+        self.assertGreater(len(scripts), 12)
+        for script in scripts:
+            with self.subTest(script.name):
+                done = run(script)
+                self.assertNotEqual(done.returncode, 0)
+                self.assertIn("path of the other lmp_rbc" if script.name == "compare_builds.sh" else
+                              f"{script.name}: say where results go: --output FOLDER", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
