@@ -74,6 +74,9 @@ void FixRBCFluid::init()
                  "Fix rbc/fluid {}: the simulation box has changed since the fix was defined", id);
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix rbc/fluid cannot be used with run_style respa");
+  if (!(update->dt > 0) && !(update->dt == 0 && update->nsteps == 0))
+    error->all(FLERR, "Fix rbc/fluid {}: timestep {} must be > 0 (or 0, for run 0)", id,
+               update->dt);
   if (flow->has_inertia() && output->restart_flag) restarts.check_size(flow->flow());
   check_drivers();
   grid_output.free();

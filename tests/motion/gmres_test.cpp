@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 using rbc::Gmres;
@@ -60,6 +61,22 @@ TEST_F(Equations, WithNothingToDoCostNothing)
   EXPECT_EQ(gmres.solve(apply, motion, Numbers(size), 0.0, y), 0);
   EXPECT_EQ(y, solution);
   EXPECT_EQ(motion.evaluations, 0);
+}
+
+/// A bound that no one reaches must cost nothing.
+TEST_F(Equations, TakeTheMemoryOfTheIterationsMade)
+{
+  gmres.max_iterations = std::numeric_limits<int>::max();
+  Numbers y(size);
+  EXPECT_LE(gmres.solve(apply, motion, test::product(matrix, solution), 1e-12, y), 1e-12);
+  EXPECT_LT(test::largest(test::difference(y, solution)), 1e-12);
+  const std::size_t vectors = gmres.iterations() + 1;
+  EXPECT_LE(gmres.bytes(), 2 * vectors * (size + vectors) * sizeof(double));
+
+  const std::size_t before = gmres.bytes();
+  y.assign(size, 0.0);
+  gmres.solve(apply, motion, test::product(matrix, solution), 1e-12, y);
+  EXPECT_EQ(gmres.bytes(), before);
 }
 
 /// As many iterations as the operator has eigenvalues.

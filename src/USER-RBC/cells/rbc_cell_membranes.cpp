@@ -288,7 +288,8 @@ void CellMembranes::constrain_volume(double dt, bool new_step, bool mid_step)
   update_swelling(false);
   const Swelling &swelling = settings_.swelling;
   const double rest = (mid_step ? swelling.middle() : swelling.now()) * shape().volume;
-  const double rest_rate = swelling.change() * shape().volume / dt;
+  const auto rate = [](double change, double time) { return time > 0 ? change / time : 0; };
+  const double rest_rate = rate(swelling.change() * shape().volume, dt);
   find_volume_sums();
 
   double **const v = atom->v;
@@ -297,7 +298,7 @@ void CellMembranes::constrain_volume(double dt, bool new_step, bool mid_step)
   for (std::size_t c = 0; c < local.size(); ++c) {
     const LocalCells::Cell &cell = local[c];
     if (!(sums_[3 * c + 2] > 0)) report(cell, "the cell turned inside out");
-    if (new_step) volume_rates_[c] = (rest - sums_[3 * c + 2]) / (VOLUME_STEPS * dt);
+    if (new_step) volume_rates_[c] = rate(rest - sums_[3 * c + 2], VOLUME_STEPS * dt);
     const double factor = (volume_rates_[c] + rest_rate - sums_[3 * c]) / sums_[3 * c + 1];
     const Vec3 *const gradient = &volume_gradient_[c * size];
     for (int i = 0; i < size; ++i) {

@@ -183,7 +183,7 @@ void DrivenFlow::start_control()
 {
   if (!controls_flow_rate()) return;
   const double section = inside_.volume(*flow_) / domain->prd[forcing_.held_direction()];
-  const double velocity = PROBE_COURANT * smallest_spacing() / update->dt;
+  const double velocity = PROBE_COURANT * smallest_spacing() / (update->dt > 0 ? update->dt : 1);
   const bool by_mean = holds_box_mean();
   const double body = 8 * MathConst::MY_PI * settings_.equations.viscosity * velocity / section;
   forcing_.start_control(by_mean, by_mean ? velocity : body);

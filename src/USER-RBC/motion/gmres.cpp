@@ -12,20 +12,13 @@ double Gmres::solve(const Operator &apply, const Motion &motion, const Numbers &
   double residual = std::sqrt(dot(motion, r, r));
   if (!(residual > tolerance)) return residual;
 
-  if (hessenberg_.cols() != max_iterations) {
-    basis_.resize(max_iterations + 1);
-    hessenberg_.resize(max_iterations + 1, max_iterations);
-    rotated_.resize(max_iterations + 1);
-    cosine_.resize(max_iterations);
-    sine_.resize(max_iterations);
-  }
-  basis_[0].resize(n);
+  make_room(0, n);
   for (std::size_t i = 0; i < n; ++i) basis_[0][i] = r[i] / residual;
   rotated_[0] = residual;
 
   int k = 0;
   while (k < max_iterations && residual > tolerance) {
-    basis_[k + 1].resize(n);
+    make_room(k + 1, n);
     apply(basis_[k], basis_[k + 1]);
     const double length = orthogonalise(motion, k);
     rotate(k);
@@ -34,18 +27,29 @@ double Gmres::solve(const Operator &apply, const Motion &motion, const Numbers &
   }
   iterations_ = k;
 
-  auto weights = rotated_.head(k);
-  hessenberg_.topLeftCorner(k, k).triangularView<Eigen::Upper>().solveInPlace(weights);
+  solve_triangle(k);
   for (int j = 0; j < k; ++j)
-    for (std::size_t i = 0; i < n; ++i) y[i] += weights[j] * basis_[j][i];
+    for (std::size_t i = 0; i < n; ++i) y[i] += rotated_[j] * basis_[j][i];
   return residual;
+}
+
+/// For the basis up to vector k. What an earlier solve has needed is kept.
+void Gmres::make_room(int k, std::size_t n)
+{
+  const std::size_t count = static_cast<std::size_t>(k) + 1;
+  if (basis_.size() < count) {
+    basis_.resize(count);
+    hessenberg_.emplace_back(count + 1);
+    for (Numbers *entries : {&rotated_, &cosine_, &sine_}) entries->resize(count);
+  }
+  basis_[k].resize(n);
 }
 
 /// Classical Gram-Schmidt of vector k + 1 against those before; returns the length of what is left.
 double Gmres::orthogonalise(const Motion &motion, int k)
 {
   Numbers &next = basis_[k + 1];
-  auto column = hessenberg_.col(k);
+  Numbers &column = hessenberg_[k];
   for (int j = 0; j <= k; ++j) {
     double overlap = 0;
     for (std::size_t i = 0; i < next.size(); ++i) overlap += next[i] * basis_[j][i];
@@ -64,7 +68,7 @@ double Gmres::orthogonalise(const Motion &motion, int k)
 /// Givens rotations that make the Hessenberg matrix triangular.
 void Gmres::rotate(int k)
 {
-  auto column = hessenberg_.col(k);
+  Numbers &column = hessenberg_[k];
   for (int j = 0; j < k; ++j) {
     const double upper = column[j], lower = column[j + 1];
     column[j] = cosine_[j] * upper + sine_[j] * lower;
@@ -78,10 +82,21 @@ void Gmres::rotate(int k)
   rotated_[k] *= cosine_[k];
 }
 
+/// Makes the first k entries of the rotated residual the weights of the basis.
+void Gmres::solve_triangle(int k)
+{
+  for (int j = k - 1; j >= 0; --j) {
+    const Numbers &column = hessenberg_[j];
+    rotated_[j] /= column[j];
+    for (int i = 0; i < j; ++i) rotated_[i] -= column[i] * rotated_[j];
+  }
+}
+
 std::size_t Gmres::bytes() const
 {
   std::size_t sum = 0;
-  for (const Numbers &vector : basis_) sum += vector.capacity();
+  for (const auto *vectors : {&basis_, &hessenberg_})
+    for (const Numbers &vector : *vectors) sum += vector.capacity();
   return sum * sizeof(double);
 }
 

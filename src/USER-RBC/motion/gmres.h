@@ -2,14 +2,13 @@
 
 #include "motion/motion.h"
 
-#include <Eigen/Core>
 #include <functional>
 
 namespace rbc {
 
 /// Generalised minimal residual method for A y = r with a linear operator known by its action only
 /// (Saad and Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856), without restarts: it keeps a vector
-/// per iteration.
+/// and a column of numbers for each iteration that was ever needed.
 class Gmres {
  public:
   using Operator = std::function<void(const Numbers &, Numbers &)>;
@@ -26,12 +25,14 @@ class Gmres {
 
  private:
   std::vector<Numbers> basis_;
-  Eigen::MatrixXd hessenberg_;
-  Eigen::VectorXd rotated_, cosine_, sine_;
+  std::vector<Numbers> hessenberg_;    ///< column k has k + 2 entries
+  Numbers rotated_, cosine_, sine_;
   int iterations_ = 0;
 
+  void make_room(int k, std::size_t n);
   double orthogonalise(const Motion &motion, int k);
   void rotate(int k);
+  void solve_triangle(int k);
 };
 
 }    // namespace rbc
