@@ -293,6 +293,9 @@ void RBCCreate::create_atoms(const std::vector<Cell> &cells)
   tagint molecule = 0;
   for (int i = 0; i < atom->nlocal; ++i) molecule = std::max(molecule, atom->molecule[i]);
   MPI_Allreduce(MPI_IN_PLACE, &molecule, 1, MPI_LMP_TAGINT, MPI_MAX, world);
+  if (molecule > MAXTAGINT - static_cast<tagint>(cells.size()))
+    error->all(FLERR, "Rbc/create: no molecule IDs are left for {} cells beyond {}, the largest",
+               cells.size(), molecule);
   bigint vertices = 0;
   for (const Cell &cell : cells) vertices += cell.kind->shape->vertex_count();
 

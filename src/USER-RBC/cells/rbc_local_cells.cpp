@@ -28,50 +28,46 @@ void LocalCells::identify()
   if (atom->map_style == Atom::MAP_NONE)
     error->all(FLERR, "{} requires an atom map, see atom_modify", style);
 
-  tagint largest = 0;
-  for (int i = 0; i < atom->nlocal; ++i)
-    if (atom->mask[i] & groupbit) largest = std::max(largest, atom->molecule[i]);
-  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_LMP_TAGINT, MPI_MAX, world);
-  if (largest > atom->natoms)
-    error->all(FLERR,
-               "{}: molecule ID {} is larger than the number of atoms; renumber with set mol",
-               style, largest);
-
-  // lowest and (negated) highest atom ID of each molecule in one reduction
-  std::vector<tagint> extremes(2 * (largest + 1), MAXTAGINT);
-  std::vector<int> count(largest + 1);
-  for (int i = 0; i < atom->nlocal; ++i) {
-    if (!(atom->mask[i] & groupbit)) continue;
-    const tagint m = atom->molecule[i];
-    extremes[2 * m] = std::min(extremes[2 * m], atom->tag[i]);
-    extremes[2 * m + 1] = std::min(extremes[2 * m + 1], -atom->tag[i]);
-    ++count[m];
-  }
-  MPI_Allreduce(MPI_IN_PLACE, extremes.data(), static_cast<int>(extremes.size()), MPI_LMP_TAGINT,
-                MPI_MIN, world);
-  MPI_Allreduce(MPI_IN_PLACE, count.data(), static_cast<int>(count.size()), MPI_INT, MPI_SUM,
-                world);
-
   molecule_ids.clear();
   first_ids.clear();
   index_of.clear();
-  if (count[0] > 0)
-    error->all(FLERR, "{}: {} atoms of the group belong to no molecule", style, count[0]);
-  for (tagint m = 1; m <= largest; ++m) {
-    if (count[m] == 0) continue;
-    const tagint first = extremes[2 * m], last = -extremes[2 * m + 1];
-    if (count[m] != shape.vertex_count())
+  for (const Extent &cell : find_extents()) {
+    if (cell.molecule <= 0)
+      error->all(FLERR, "{}: {} atoms of the group belong to no molecule", style, cell.count);
+    if (cell.count != shape.vertex_count())
       error->all(FLERR,
                  "{}: the cell with molecule ID {} has {} atoms in the group, its template {}",
-                 style, m, count[m], shape.vertex_count());
-    if (last - first + 1 != shape.vertex_count())
+                 style, cell.molecule, cell.count, shape.vertex_count());
+    if (cell.last - cell.first + 1 != shape.vertex_count())
       error->all(FLERR,
                  "{}: the atom IDs of the cell with molecule ID {} are not consecutive ({} to {})",
-                 style, m, first, last);
-    index_of[m] = static_cast<int>(molecule_ids.size());
-    molecule_ids.push_back(m);
-    first_ids.push_back(first);
+                 style, cell.molecule, cell.first, cell.last);
+    index_of[cell.molecule] = static_cast<int>(molecule_ids.size());
+    molecule_ids.push_back(cell.molecule);
+    first_ids.push_back(cell.first);
   }
+}
+
+/* ----------------------------------------------------------------------
+   of all molecules of the group, in order of molecule ID
+------------------------------------------------------------------------- */
+
+std::vector<LocalCells::Extent> LocalCells::find_extents() const
+{
+  std::vector<Extent> mine;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const tagint tag = atom->tag[i];
+    mine.push_back({std::max<tagint>(atom->molecule[i], 0), tag, tag, 1});
+  }
+  return gather_molecules(std::move(mine), world);
+}
+
+void LocalCells::Extent::include(const Extent &other)
+{
+  first = std::min(first, other.first);
+  last = std::max(last, other.last);
+  count += other.count;
 }
 
 /* ----------------------------------------------------------------------
@@ -176,8 +172,8 @@ void LocalCells::check_complete(const std::vector<int> &owned_count) const
                "{}: lost {:.0f} of {} vertices, which left the simulation box, at step {}: cell "
                "with molecule ID {} "
                "near ({:.6g}, {:.6g}, {:.6g})",
-               style, shape.vertex_count() - s[0], shape.vertex_count(), update->ntimestep, molecule_ids[n],
-               s[1] / s[0], s[2] / s[0], s[3] / s[0]);
+               style, shape.vertex_count() - s[0], shape.vertex_count(), update->ntimestep,
+               molecule_ids[n], s[1] / s[0], s[2] / s[0], s[3] / s[0]);
   }
 }
 

@@ -47,6 +47,14 @@ class LocalCells : protected Pointers {
   void sum_shared(std::vector<double> &values, int width);
 
  private:
+  /// Atoms of a molecule: lowest and highest ID, and how many.
+  struct Extent {
+    tagint molecule, first, last;
+    bigint count;
+
+    void include(const Extent &other);
+  };
+
   const rbc::SurfaceTemplate &shape;
   int groupbit;
   std::string style;
@@ -64,6 +72,7 @@ class LocalCells : protected Pointers {
   std::vector<double> unwrapped;    ///< positions of all atoms here, if there are several ranks
   std::vector<double *> unwrapped_rows;
 
+  std::vector<Extent> find_extents() const;
   void check_complete(const std::vector<int> &owned_count) const;
   void unwrap();
   void find_neighbours(std::size_t at, tagint first, const std::vector<char> &owned, int rings);
