@@ -7,8 +7,8 @@ ComputeStyle(rbc/cell,ComputeRBCCell);
 #ifndef LMP_COMPUTE_RBC_CELL_H
 #define LMP_COMPUTE_RBC_CELL_H
 
-#include "compute.h"
 #include "cells/rbc_group_cells.h"
+#include "compute.h"
 
 #include <vector>
 
@@ -26,8 +26,10 @@ class ComputeRBCCell : public Compute {
  private:
   GroupCells cells;    // one for each row
   std::vector<double> sums;
+  bool warned = false;    // of a centre that jumped
 
   void add_sums(CellMembranes &);
+  void warn_of_jump(const double *row, const rbc::Vec3 &centre);
 };
 
 }    // namespace LAMMPS_NS
