@@ -33,7 +33,7 @@ enum {
 /* ---------------------------------------------------------------------- */
 
 ComputeRBCCell::ComputeRBCCell(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), cells(lmp, fmt::format("Compute rbc/cell {}", id))
+    Compute(lmp, narg, arg), cells(lmp, fmt::format("Compute rbc/cell {}", id)), rows_lock(lmp)
 {
   if (narg > 3) error->all(FLERR, 3, "Unknown compute rbc/cell argument {}: it takes none", arg[3]);
   array_flag = 1;
@@ -54,7 +54,11 @@ ComputeRBCCell::~ComputeRBCCell()
 
 void ComputeRBCCell::init()
 {
+  const std::vector<tagint> before = cells.molecules();
   cells.find(groupbit);
+  if (cells.molecules() != before)
+    rows_lock.check(fmt::format("Compute rbc/cell {}: cells changed ({} before, {} now)", id,
+                                before.size(), cells.size()));
   const int rows = cells.size();
   if (rows != size_array_rows || !array) {
     size_array_rows = rows;
