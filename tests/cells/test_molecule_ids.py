@@ -40,6 +40,22 @@ class MoleculeIDs(BadInput):
                 written = large.path("cells.10.vtp").read_bytes()
                 self.assertEqual(written.count(LARGEST.to_bytes(8, "little")), 162)
 
+    def test_cells_that_no_membrane_holds(self):
+        lines = dict(box="region box block 0 30 0 12 0 12", before="group held molecule 1",
+                     cells="\n".join(f"rbc/create rbc single {x} 6 6" for x in (5, 15, 25)),
+                     membrane=SHEAR["membrane"].replace("all", "held"))
+        for changes, said in (({}, "moves 2 cells without a membrane (the first has molecule ID 2)"),
+                              (dict(before="group held molecule 1 3"), "moves 1 cell without a membrane (the first "),
+                              (dict(membrane=None, thermo=None), "moves 3 cells without a membrane (the first "),
+                              (dict(before="group held molecule 1 2 3"), ""),
+                              (dict(ib=SHEAR["ib"].replace("all", "held")), ""),
+                              (dict(membrane=None, thermo=None, last="set group all mol 0"), "")):
+            for ranks in (1, 2):
+                with self.subTest(changes, ranks=ranks):
+                    result = run(scene(**{**lines, **changes}), ranks)
+                    self.assertEqual(result.printed.count(" without a membrane "), 1 if said else 0)
+                    self.assertIn(said, result.printed)
+
     def test_no_ID_is_left(self):
         cells = f"{SHEAR['cells']}\nset group all mol {LARGEST}\nrbc/create rbc single 6 6 9"
         self.check({"no ID": (dict(cells=cells), ["rbc/create", "molecule IDs", str(LARGEST)])})

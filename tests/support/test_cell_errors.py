@@ -115,6 +115,9 @@ MEMBRANE_ERRORS = {
     "cell broken by delete_atoms after a run": (
         dict(last="run 0\ngroup few id 7 9\ndelete_atoms group few compress no"),
         ["rbc/membrane mem", "molecule ID 1", "160", "162"]),
+    "group defined before its cells": (dict(molecule=f"molecule rbc {POTENTIALS}/rbc_162.mol\ngroup cells type 1",
+                                            membrane=SHEAR["membrane"].replace("all", "cells")),
+                                       ["rbc/membrane mem", "group has no atoms", "after the cells are made"]),
     "atom of no molecule": (dict(before="create_atoms 1 single 1 1 1"), ["rbc/membrane mem", "1 atoms", "no molecule"]),
     "atoms of another kind": (dict(before="molecule small " + str(POTENTIALS / "capsule_362.mol") +
                                    "\nchange_box all x final 0 30 boundary p p f\nrbc/create small single 20 6 6"),

@@ -46,6 +46,9 @@ void LocalCells::identify()
     molecule_ids.push_back(cell.molecule);
     first_ids.push_back(cell.first);
   }
+  if (molecule_ids.empty())
+    error->all(FLERR, "{}: its group has no atoms; define the group after the cells are made",
+               style);
 }
 
 /* ----------------------------------------------------------------------
