@@ -24,7 +24,7 @@ static constexpr int NCOLS = 3;
 
 ComputeRBCAggregate::ComputeRBCAggregate(LAMMPS *lmp, int narg, char **arg) :
     Compute(lmp, narg, arg), cells(lmp, fmt::format("Compute rbc/aggregate {}", id)),
-    near(lmp, fmt::format("Compute rbc/aggregate {}", id))
+    near(lmp, fmt::format("Compute rbc/aggregate {}", id)), rows_lock(lmp)
 {
   Arguments args(lmp, "compute rbc/aggregate", narg, arg, 3);
   gap = args.positive("gap");
@@ -68,6 +68,9 @@ void ComputeRBCAggregate::init()
 
   const int rows = rbc::AggregateSizes::class_count(cells.size());
   if (rows == size_array_rows && array) return;
+  rows_lock.check(fmt::format("Compute rbc/aggregate {}: classes of size changed ({} before, {} "
+                              "now)",
+                              id, size_array_rows, rows));
   size_array_rows = rows;
   memory->destroy(array);
   memory->create(array, std::max(rows, 1), NCOLS, "rbc/aggregate:array");

@@ -12,6 +12,7 @@ ComputeStyle(rbc/aggregate,ComputeRBCAggregate);
 #include "compute.h"
 #include "contact/aggregate_sizes.h"
 #include "contact/touching_cells.h"
+#include "support/rbc_row_lock.h"
 
 #include <vector>
 
@@ -27,6 +28,8 @@ class ComputeRBCAggregate : public Compute {
   void compute_array() override;
   void compute_peratom() override;
   int lock_length() override { return size_array_rows; }
+  void lock(class Fix *fix, bigint, bigint last) override { rows_lock.lock(fix, last); }
+  void unlock(Fix *fix) override { rows_lock.unlock(fix); }
   double memory_usage() override;
 
  private:
@@ -39,6 +42,7 @@ class ComputeRBCAggregate : public Compute {
   double least_share = 0;    // of a cell's area that lies within the gap, 0 for any vertex
   GroupCells cells;
   NearSurfaces near;
+  RowLock rows_lock;
   rbc::DisjointSets sets{0};
   rbc::AggregateSizes sizes;
   bigint found_step = -1;

@@ -1,12 +1,15 @@
 #include "compute_rbc_cell.h"
 
 #include "atom.h"
+#include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "membrane/cell_shape.h"
 #include "memory.h"
 #include "update.h"
 
 #include <algorithm>
+#include <cmath>
 
 using namespace LAMMPS_NS;
 using rbc::Vec3;
@@ -30,7 +33,7 @@ enum {
 /* ---------------------------------------------------------------------- */
 
 ComputeRBCCell::ComputeRBCCell(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), cells(lmp, fmt::format("Compute rbc/cell {}", id))
+    Compute(lmp, narg, arg), cells(lmp, fmt::format("Compute rbc/cell {}", id)), rows_lock(lmp)
 {
   if (narg > 3) error->all(FLERR, 3, "Unknown compute rbc/cell argument {}: it takes none", arg[3]);
   array_flag = 1;
@@ -51,12 +54,17 @@ ComputeRBCCell::~ComputeRBCCell()
 
 void ComputeRBCCell::init()
 {
+  const std::vector<tagint> before = cells.molecules();
   cells.find(groupbit);
+  if (cells.molecules() != before)
+    rows_lock.check(fmt::format("Compute rbc/cell {}: cells changed ({} before, {} now)", id,
+                                before.size(), cells.size()));
   const int rows = cells.size();
   if (rows != size_array_rows || !array) {
     size_array_rows = rows;
     memory->destroy(array);
     memory->create(array, std::max(rows, 1), NCOLS, "rbc/cell:array");
+    for (int n = 0; n < rows; ++n) array[n][0] = 0;    // no cell yet
   }
 }
 
@@ -83,6 +91,7 @@ void ComputeRBCCell::compute_array()
     const Vec3 centre = moments.centre() + Vec3(s + ORIGIN) / s[COUNT];
 
     double *row = array[n];
+    warn_of_jump(row, centre);
     row[0] = static_cast<double>(cells.molecules()[n]);
     row[4] = moments.area;
     row[5] = moments.volume;
@@ -94,6 +103,28 @@ void ComputeRBCCell::compute_array()
       row[13 + d] = ellipsoid.short_axis[d];
       row[16 + d] = s[SPEED + d] / s[COUNT];
     }
+  }
+}
+
+/* ----------------------------------------------------------------------
+   the row is still that of the last time, the same on all ranks
+------------------------------------------------------------------------- */
+
+void ComputeRBCCell::warn_of_jump(const double *row, const Vec3 &centre)
+{
+  const int n = static_cast<int>((row - array[0]) / NCOLS);
+  if (warned || row[0] != static_cast<double>(cells.molecules()[n])) return;
+  for (int d = 0; d < 3; ++d) {
+    if (!domain->periodicity[d] || !(std::abs(centre[d] - row[1 + d]) > IMGMAX * domain->prd[d]))
+      continue;
+    warned = true;
+    if (comm->me == 0)
+      error->warning(FLERR,
+                     "Compute rbc/cell {}: the centre of the cell with molecule ID {} jumped by {} "
+                     "lengths of the box in {} before step {}: image flags go from {} to {} only",
+                     id, cells.molecules()[n], 2 * IMGMAX, "xyz"[d], update -> ntimestep, -IMGMAX,
+                     IMGMAX - 1);
+    return;
   }
 }
 

@@ -9,6 +9,7 @@ ComputeStyle(rbc/cell,ComputeRBCCell);
 
 #include "cells/rbc_group_cells.h"
 #include "compute.h"
+#include "support/rbc_row_lock.h"
 
 #include <vector>
 
@@ -21,13 +22,18 @@ class ComputeRBCCell : public Compute {
   void init() override;
   void compute_array() override;
   int lock_length() override { return size_array_rows; }
+  void lock(class Fix *fix, bigint, bigint last) override { rows_lock.lock(fix, last); }
+  void unlock(Fix *fix) override { rows_lock.unlock(fix); }
   double memory_usage() override;
 
  private:
   GroupCells cells;    // one for each row
+  RowLock rows_lock;
   std::vector<double> sums;
+  bool warned = false;    // of a centre that jumped
 
   void add_sums(CellMembranes &);
+  void warn_of_jump(const double *row, const rbc::Vec3 &centre);
 };
 
 }    // namespace LAMMPS_NS

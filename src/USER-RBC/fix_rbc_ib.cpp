@@ -2,6 +2,7 @@
 
 #include "atom.h"
 #include "cells/rbc_cell_membranes.h"
+#include "cells/rbc_unheld_cells.h"
 #include "comm.h"
 #include "coupling/rbc_kernel_words.h"
 #include "coupling/rbc_wall_group.h"
@@ -216,6 +217,7 @@ void FixRBCIB::init()
   for (FluidClient *client : clients())
     if (client->wall_group()) check_apart(*client->wall_group());
   for (StepPart *pair : pair_step_parts(force)) pair->report_to(markers->stop());
+  warn_of_unheld_cells(lmp, fmt::format("Fix rbc/ib {}", id), groupbit);
 
   markers->start_run(flow, membranes,
                      has_sheets() ? fluid::MarkerKind::sheets : fluid::MarkerKind::points);

@@ -227,6 +227,7 @@ void FixRBCMembrane::ask_for_ghosts()
 void FixRBCMembrane::setup_post_neighbor()
 {
   cells.update_ownership();
+  cells.warn_of_torn_cells();
 }
 
 void FixRBCMembrane::post_neighbor()

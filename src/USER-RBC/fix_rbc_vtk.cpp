@@ -220,7 +220,8 @@ std::vector<FixRBCVTK::Vertex> FixRBCVTK::collect(const Source &source,
       if (!cells[c].elements->owned[v]) continue;
       const int i = cells[c].atom[v];
       Vertex vertex{cells[c].index, v, {}, {}, {}};
-      domain->unmap(atom->x[i], atom->image[i], vertex.x);
+      const Vec3 x = cells[c].position(v, atom->x);
+      std::copy_n(x.data(), 3, vertex.x);
       std::copy_n(atom->v[i], 3, vertex.v);
       std::copy_n(atom->f[i], 3, vertex.f);
       sent.push_back(vertex);
@@ -268,7 +269,7 @@ void FixRBCVTK::write_cells(const Source &source, int block, const std::vector<i
     for (int p = 0; p < size; ++p) {
       if (!cell.elements->owned[p]) continue;
       const int i = cell.atom[p];
-      domain->unmap(atom->x[i], atom->image[i], x[p].data());
+      x[p] = cell.position(p, atom->x);
       v[p] = Vec3(atom->v[i]);
       f[p] = Vec3(atom->f[i]);
     }

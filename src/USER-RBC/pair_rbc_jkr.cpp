@@ -123,33 +123,18 @@ void PairRBCJKR::check_cells()
     for (int j = i; j < n; ++j)
       if (setflag[i][j] && coefficients->touch(i, j)) touches[i] = touches[j] = 1;
 
-  tagint lone = MAXTAGINT, mixed = MAXTAGINT, largest = 0;
-  for (int i = 0; i < atom->nlocal; ++i) {
-    if (!surfaces->is_vertex(i)) {
-      if (touches[atom->type[i]]) lone = std::min(lone, atom->tag[i]);
-    } else
-      largest = std::max(largest, atom->molecule[i]);
-  }
+  tagint lone = MAXTAGINT;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (touches[atom->type[i]] && !surfaces->is_vertex(i)) lone = std::min(lone, atom->tag[i]);
   MPI_Allreduce(MPI_IN_PLACE, &lone, 1, MPI_LMP_TAGINT, MPI_MIN, world);
-  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_LMP_TAGINT, MPI_MAX, world);
   if (lone != MAXTAGINT)
     error->all(FLERR,
                "Pair rbc/jkr: atom {} belongs to no cell of a fix rbc/membrane; types of other "
                "atoms need pair_coeff none",
                lone);
 
-  std::vector<int> extremes(2 * (largest + 1), n);    // lowest type and (negated) highest
-  for (int i = 0; i < atom->nlocal; ++i) {
-    if (!surfaces->is_vertex(i)) continue;
-    int *const of = &extremes[2 * atom->molecule[i]];
-    of[0] = std::min(of[0], atom->type[i]);
-    of[1] = std::min(of[1], -atom->type[i]);
-  }
-  MPI_Allreduce(MPI_IN_PLACE, extremes.data(), static_cast<int>(extremes.size()), MPI_INT, MPI_MIN,
-                world);
-  for (tagint m = largest; m >= 0; --m)
-    if (extremes[2 * m] < n && extremes[2 * m] != -extremes[2 * m + 1]) mixed = m;
-  if (mixed != MAXTAGINT)
+  const tagint mixed = surfaces->cell_of_mixed_type();
+  if (mixed > 0)
     error->all(FLERR, "Pair rbc/jkr: the atoms of the cell with molecule ID {} must be of one type",
                mixed);
 }

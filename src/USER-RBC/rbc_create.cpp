@@ -81,7 +81,7 @@ void RBCCreate::parse(int narg, char **arg)
                 seed = args.whole(1, MAXSMALLINT);
                 seeded = true;
               }},
-             {"type", [&] { kinds[0].type = args.whole(1, atom->ntypes); }},
+             {"type", [&] { kinds[0].type = args.atom_type(); }},
              {"overlap", [&] { gap = args.positive(); }},
              {"attempts", [&] { attempts = args.whole(1, MAXSMALLINT); }},
              {"velocity", [&] { speed = args.not_negative(); }}});
@@ -126,7 +126,7 @@ void RBCCreate::read_mix(Arguments &args)
   if (kinds[0].fraction < 1e-9)
     args.fail("Rbc/create mix fractions must add up to less than 1, not {:.6g}",
               1 - kinds[0].fraction);
-  const int type = args.whole(1, atom->ntypes, "type");
+  const int type = args.atom_type("type");
   kinds.push_back({id, make_cell_template(lmp, id, "rbc/create mix"), fraction, type, 0});
 }
 
@@ -223,12 +223,19 @@ RBCCreate::Cell RBCCreate::place_single() const
   const double *lower = domain->boxlo, *upper = domain->boxhi;
   for (int v = 0; v < kinds[0].shape->vertex_count(); ++v) {
     const Vec3 vertex = cell.vertex(v);
-    for (int d = 0; d < 3; ++d)
+    for (int d = 0; d < 3; ++d) {
       if (!domain->periodicity[d] && (vertex[d] <= lower[d] || vertex[d] >= upper[d]))
         error->all(FLERR,
                    "Rbc/create single: a vertex at {} {:.6g} lies outside the simulation box, "
                    "{:.6g} to {:.6g}",
                    "xyz"[d], vertex[d], lower[d], upper[d]);
+      const double boxes = std::floor((vertex[d] - lower[d]) / domain->prd[d]);
+      if (boxes < -IMGMAX || boxes >= IMGMAX)
+        error->all(FLERR,
+                   "Rbc/create single: a vertex at {} {:.6g} lies {:.6g} boxes away; image flags "
+                   "of the periodic box go from {} to {}",
+                   "xyz"[d], vertex[d], boxes, -IMGMAX, IMGMAX - 1);
+    }
   }
   return cell;
 }
@@ -293,6 +300,9 @@ void RBCCreate::create_atoms(const std::vector<Cell> &cells)
   tagint molecule = 0;
   for (int i = 0; i < atom->nlocal; ++i) molecule = std::max(molecule, atom->molecule[i]);
   MPI_Allreduce(MPI_IN_PLACE, &molecule, 1, MPI_LMP_TAGINT, MPI_MAX, world);
+  if (molecule > MAXTAGINT - static_cast<tagint>(cells.size()))
+    error->all(FLERR, "Rbc/create: no molecule IDs are left for {} cells beyond {}, the largest",
+               cells.size(), molecule);
   bigint vertices = 0;
   for (const Cell &cell : cells) vertices += cell.kind->shape->vertex_count();
 

@@ -59,7 +59,7 @@ void RBCSurface::parse(int narg, char **arg)
   region->prematch();
 
   Arguments args(lmp, "rbc/surface", narg, arg, 1);
-  args.read({{"type", [&] { type = args.whole(1, atom->ntypes); }},
+  args.read({{"type", [&] { type = args.atom_type(); }},
              {"spacing", [&] { spacing = args.positive(); }},
              {"offset", [&] { offset = args.number(); }},
              {"mass", [&] { mass = args.positive(); }}});

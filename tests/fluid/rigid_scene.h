@@ -81,4 +81,44 @@ struct Scene {
 inline constexpr auto no_force = [](int, const Real3 &) { return 0.0; };
 inline constexpr auto at_rest = [](int) { return Real3{0, 0, 0}; };
 
+/// Rate of flow along x through the tube, in each plane of faces; radius(x) bounds it.
+template <typename Radius> std::vector<double> flow_rates(const Scene &scene, Radius radius)
+{
+  const Grid &grid = scene.flow.grid();
+  std::vector<double> rates(grid.cells[0], 0.0);
+  for_each(scene.flow.brick(), [&](int i, int j, int k) {
+    const Real3 x = location(grid, 0, i, j, k);
+    if (from_axis(grid, x) < radius(x[0]))
+      rates[i] += scene.flow.velocity()[0](i, j, k) * grid.spacing[1] * grid.spacing[2];
+  });
+  MPI_Allreduce(MPI_IN_PLACE, rates.data(), grid.cells[0], MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  return rates;
+}
+
+inline std::vector<double> flow_rates(const Scene &scene, double radius)
+{
+  return flow_rates(scene, [radius](double) { return radius; });
+}
+
+inline Grid around_tube(double radius, double length)
+{
+  const int wide = fast_size(static_cast<int>(std::ceil(2 * radius + 8)));
+  return {
+      {fast_size(static_cast<int>(std::lround(length))), wide, wide}, {0, 0, 0}, {1, 1, 1}, false};
+}
+
+/// Radius of the markers of a sphere that has, in a dilute array, the drag of the radius wanted.
+inline double dilute_radius(KernelKind kernel, double wanted)
+{
+  const int n = fast_size(static_cast<int>(std::ceil(8 * wanted)));
+  double markers = wanted - surface_offset(kernel);
+  for (int round = 0; round < 2; ++round) {
+    const double drag = array(kernel, 1, markers, n);
+    double a = markers;
+    for (int iteration = 0; iteration < 50; ++iteration) a = drag / dilute_array(a / n);
+    markers += wanted - a;
+  }
+  return markers;
+}
+
 }    // namespace test

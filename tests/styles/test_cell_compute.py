@@ -4,7 +4,7 @@ import unittest
 
 import numpy as np
 
-from lammps_case import POTENTIALS, dump_line, read_template, run, scene
+from lammps_case import POTENTIALS, attempt, dump_line, read_template, run, scene
 from test_create import rotation
 
 
@@ -145,6 +145,50 @@ class Use(unittest.TestCase):
                 np.testing.assert_array_equal(table[:, :, 1], np.tile((1, 2, 3), (3, 1)))
                 np.testing.assert_allclose(table[0, :, 2], rows[:, 5], rtol=1e-14)
                 np.testing.assert_allclose(table[2, :, 2], rows_of(result, 3)[:, 5], rtol=1e-14)
+
+    # what a fix averages over steps, the run in which cells come or go after it has begun, and whether it may go on
+    AVERAGES = {
+        "1 1 1": ("run 2", True), "1 2 2": ("run 4", True), "1 3 4": ("run 3", False),
+        "1 1 1 ave running": ("run 2", False), "1 1 1 ave window 3": ("run 2", False)}
+    CHANGES = {"fewer": "group gone molecule 1\ndelete_atoms group gone compress no",
+               "as many": "group gone molecule 1\ndelete_atoms group gone compress no\nrbc/create rbc single 6 6 6",
+               "more": "rbc/create rbc single 15 6 6"}
+
+    def averaged(self, when, change, columns="c_cell[1] c_cell[6]", unfix="", ranks=1):
+        every, _, ave = when.partition(" ave ")
+        average = f"fix out all ave/time {every} {columns} mode vector file out.txt" + (f" ave {ave}" if ave else "")
+        run_before = self.AVERAGES[when][0]
+        return attempt(cell_scene(
+            1, box=THREE["box"], cells="rbc/create rbc single 6 6 6\nrbc/create rbc single 25 6 6", ib=None, fluid=None,
+            compute="compute cell all rbc/cell\ncompute agg all rbc/aggregate 0.3",
+            run=f"{average}\n{run_before}\n{unfix}\n{change}\nrun 4"), ranks)
+
+    def test_averages_over_other_cells_are_refused(self):
+        for when, (_, allowed) in self.AVERAGES.items():
+            for name, change in self.CHANGES.items():
+                with self.subTest(when, change=name):
+                    result = self.averaged(when, change)
+                    if allowed:
+                        self.assertEqual(result.error, "")
+                        blocks = [line.split() for line in result.path("out.txt").read_text().splitlines()]
+                        rows = [line for line in blocks if len(line) == 3 and line[0] != "#"][-2:]
+                        self.assertLess(abs(float(rows[0][2]) / float(rows[1][2]) - 1), 1e-5)
+                        self.assertEqual([int(float(row[1])) for row in rows],
+                                         {"fewer": [2, 2], "as many": [2, 3], "more": [2, 3]}[name])
+                        continue
+                    for word in ("compute rbc/cell cell", "cells changed (2 before", "fix out averages", "unfix"):
+                        self.assertIn(word, result.error.lower(), result.printed)
+
+    def test_averages_go_on(self):
+        for when in ("1 3 4", "1 1 1 ave running"):
+            with self.subTest(when):
+                self.assertEqual(self.averaged(when, "", ranks=2).error, "")
+                self.assertEqual(self.averaged(when, self.CHANGES["fewer"], unfix="unfix out").error, "")
+
+    def test_classes_of_aggregates(self):
+        result = self.averaged("1 1 1 ave running", self.CHANGES["fewer"], "c_agg[2] c_agg[3]")
+        self.assertIn("Compute rbc/aggregate agg: classes of size changed (2 before, 1 now)", result.error)
+        self.assertIn("fix out averages", result.error)
 
 
 if __name__ == "__main__":

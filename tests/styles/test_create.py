@@ -94,6 +94,19 @@ class Single(unittest.TestCase):
         np.testing.assert_array_equal(dump("mass"), 3.5)
 
 
+class TypeLabels(unittest.TestCase):
+    def test_name_types_as_in_create_atoms(self):
+        labels = "labelmap atom 1 soft 2 wall 3 stiff\nmass soft 1.0\n"
+        cells = ("rbc/create rbc number 4 seed 5 type {} mix rbc 0.5 {}\nregion tube cylinder x 12 10 9 INF INF\n"
+                 "rbc/surface tube type {} spacing 3")
+        for ranks in (1, 2):
+            dumps = [created(labels + cells.format(*types), ranks, create_box="create_box 3 box angle/types 1").dump()
+                     for types in (("soft", "stiff", "wall"), (1, 3, 2))]
+            for type, least in ((1, 2 * 162), (2, 1), (3, 2 * 162)):
+                self.assertGreaterEqual((dumps[0]("type") == type).sum(), least)
+            np.testing.assert_array_equal(dumps[0].frames[0], dumps[1].frames[0])
+
+
 class Random(unittest.TestCase):
     def check_cells(self, dump, number, overlap, periodic=(True, True, False), box=BOX):
         self.assertEqual(len(dump("id")), number * 162)

@@ -21,6 +21,10 @@ using rbc::Vec3;
 
 static constexpr double VOLUME_STEPS = 10.0;
 
+// cells whose edges are this much longer than in the template were hardly stretched by a flow
+
+static constexpr double TORN = 3.0;
+
 /* ---------------------------------------------------------------------- */
 
 CellMembranes::CellMembranes(LAMMPS *lmp, std::string style, int groupbit,
@@ -65,6 +69,21 @@ void CellMembranes::update_ownership()
   volume_rates_.resize(count);
   volume_gradient_.resize(keeps_volume() ? count * shape().vertex_count() : 0);
   linear_at_.resize(is_thinning() ? count * shape().vertex_count() : 0);
+}
+
+/* ----------------------------------------------------------------------
+   a box that was changed without its atoms tears those cells that lie across its sides
+------------------------------------------------------------------------- */
+
+void CellMembranes::warn_of_torn_cells()
+{
+  const LocalCells::Stretch stretch = cells_.largest_stretch();
+  if (stretch.ratio > TORN && comm->me == 0)
+    error->warning(FLERR,
+                   "{}: an edge of the cell with molecule ID {} is {:.3g} times as long as in its "
+                   "template at the start of the run; cells across periodic sides are torn if the "
+                   "box is changed without its atoms (change_box without remap, read_dump)",
+                   style_, stretch.molecule, stretch.ratio);
 }
 
 /* ----------------------------------------------------------------------
@@ -352,6 +371,6 @@ void CellMembranes::report(const LocalCells::Cell &cell, const std::string &what
 double CellMembranes::bytes() const
 {
   const double vertices = static_cast<double>(cells_.cells().size()) * shape().vertex_count();
-  return vertices * (sizeof(int) + sizeof(Vec3)) +
+  return vertices * (sizeof(int) + sizeof(Vec3) + sizeof(char)) +
          (volume_gradient_.size() + linear_at_.size()) * sizeof(Vec3);
 }

@@ -42,6 +42,9 @@ class CellMembranes : public StepPart, protected Pointers {
   /// Collective, after atoms migrated.
   void update_ownership();
 
+  /// Collective, after update_ownership() at the start of a run: warns of cells that look torn.
+  void warn_of_torn_cells();
+
   /// Distance from an owned vertex within which it needs its neighbors, as edges may be stretched.
   double ghost_reach() const;
 

@@ -16,7 +16,7 @@ using rbc::Vec3;
 LocalCells::LocalCells(LAMMPS *lmp, const rbc::SurfaceTemplate &shape, int groupbit,
                        std::string style) :
     Pointers(lmp),
-    shape(shape), groupbit(groupbit), style(std::move(style)),
+    shape(shape), groupbit(groupbit), style(std::move(style)), joined(shape),
     whole(rbc::CellElements::whole(shape))
 {
 }
@@ -28,61 +28,49 @@ void LocalCells::identify()
   if (atom->map_style == Atom::MAP_NONE)
     error->all(FLERR, "{} requires an atom map, see atom_modify", style);
 
-  tagint largest = 0;
-  for (int i = 0; i < atom->nlocal; ++i)
-    if (atom->mask[i] & groupbit) largest = std::max(largest, atom->molecule[i]);
-  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_LMP_TAGINT, MPI_MAX, world);
-  if (largest > atom->natoms)
-    error->all(FLERR,
-               "{}: molecule ID {} is larger than the number of atoms; renumber with set mol",
-               style, largest);
-
-  // lowest and (negated) highest atom ID of each molecule in one reduction
-  std::vector<tagint> extremes(2 * (largest + 1), MAXTAGINT);
-  std::vector<int> count(largest + 1);
-  for (int i = 0; i < atom->nlocal; ++i) {
-    if (!(atom->mask[i] & groupbit)) continue;
-    const tagint m = atom->molecule[i];
-    extremes[2 * m] = std::min(extremes[2 * m], atom->tag[i]);
-    extremes[2 * m + 1] = std::min(extremes[2 * m + 1], -atom->tag[i]);
-    ++count[m];
-  }
-  MPI_Allreduce(MPI_IN_PLACE, extremes.data(), static_cast<int>(extremes.size()), MPI_LMP_TAGINT,
-                MPI_MIN, world);
-  MPI_Allreduce(MPI_IN_PLACE, count.data(), static_cast<int>(count.size()), MPI_INT, MPI_SUM,
-                world);
-
   molecule_ids.clear();
   first_ids.clear();
   index_of.clear();
-  if (count[0] > 0)
-    error->all(FLERR, "{}: {} atoms of the group belong to no molecule", style, count[0]);
-  for (tagint m = 1; m <= largest; ++m) {
-    if (count[m] == 0) continue;
-    const tagint first = extremes[2 * m], last = -extremes[2 * m + 1];
-    if (count[m] != shape.vertex_count())
+  for (const Extent &cell : find_extents()) {
+    if (cell.molecule <= 0)
+      error->all(FLERR, "{}: {} atoms of the group belong to no molecule", style, cell.count);
+    if (cell.count != shape.vertex_count())
       error->all(FLERR,
                  "{}: the cell with molecule ID {} has {} atoms in the group, its template {}",
-                 style, m, count[m], shape.vertex_count());
-    if (last - first + 1 != shape.vertex_count())
+                 style, cell.molecule, cell.count, shape.vertex_count());
+    if (cell.last - cell.first + 1 != shape.vertex_count())
       error->all(FLERR,
                  "{}: the atom IDs of the cell with molecule ID {} are not consecutive ({} to {})",
-                 style, m, first, last);
-    index_of[m] = static_cast<int>(molecule_ids.size());
-    molecule_ids.push_back(m);
-    first_ids.push_back(first);
+                 style, cell.molecule, cell.first, cell.last);
+    index_of[cell.molecule] = static_cast<int>(molecule_ids.size());
+    molecule_ids.push_back(cell.molecule);
+    first_ids.push_back(cell.first);
   }
+  if (molecule_ids.empty())
+    error->all(FLERR, "{}: its group has no atoms; define the group after the cells are made",
+               style);
 }
 
 /* ----------------------------------------------------------------------
-   from the wrapped to the unwrapped position of an owned atom
+   of all molecules of the group, in order of molecule ID
 ------------------------------------------------------------------------- */
 
-Vec3 LocalCells::image_shift(int i) const
+std::vector<LocalCells::Extent> LocalCells::find_extents() const
 {
-  double zero[3] = {0, 0, 0}, shift[3];
-  domain->unmap(zero, atom->image[i], shift);
-  return {shift[0], shift[1], shift[2]};
+  std::vector<Extent> mine;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    const tagint tag = atom->tag[i];
+    mine.push_back({std::max<tagint>(atom->molecule[i], 0), tag, tag, 1});
+  }
+  return gather_molecules(std::move(mine), world);
+}
+
+void LocalCells::Extent::include(const Extent &other)
+{
+  first = std::min(first, other.first);
+  last = std::max(last, other.last);
+  count += other.count;
 }
 
 void LocalCells::update_ownership(bool bending)
@@ -116,24 +104,18 @@ void LocalCells::update_ownership(bool bending)
 
   stop.check();
   check_complete(owned_count);
-  unwrap();
 
-  offsets.assign(atoms.size(), Vec3::Zero());
   parts.clear();
   parts.reserve(local.size());
   std::vector<char> is_part(local.size());
   for (std::size_t c = 0; c < local.size(); ++c) {
     const std::size_t at = c * size;
-    std::vector<char> owned(size);
-    for (int v = 0; v < size; ++v) {
-      owned[v] = atoms[at + v] >= 0;
-      if (owned[v]) offsets[at + v] = image_shift(atoms[at + v]);
-    }
     local[c].atom = &atoms[at];
-    local[c].offset = &offsets[at];
     local[c].elements = &whole;
     if (owned_count[c] == size) continue;
 
+    std::vector<char> owned(size);
+    for (int v = 0; v < size; ++v) owned[v] = atoms[at + v] >= 0;
     is_part[c] = 1;
     find_neighbors(at, first_ids[local[c].index], owned, bending ? 2 : 1);
     parts.push_back(rbc::CellElements::part(shape, std::move(owned), bending));
@@ -142,6 +124,7 @@ void LocalCells::update_ownership(bool bending)
   }
   stop.check();
   find_shared(is_part);
+  put_together();
   set_origins();
 }
 
@@ -157,47 +140,27 @@ void LocalCells::check_complete(const std::vector<int> &owned_count) const
   MPI_Allreduce(&owned, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (all == static_cast<bigint>(molecule_ids.size()) * shape.vertex_count()) return;
 
-  std::vector<double> sums(4 * molecule_ids.size());    // vertices left and their positions
-  for (std::size_t c = 0; c < local.size(); ++c)
-    for (int v = 0; v < shape.vertex_count(); ++v) {
-      const int i = atoms[c * shape.vertex_count() + v];
-      if (i < 0) continue;
-      double *const s = &sums[4 * std::size_t(local[c].index)];
-      double unwrapped[3];
-      domain->unmap(atom->x[i], atom->image[i], unwrapped);
-      s[0] += 1;
-      for (int d = 0; d < 3; ++d) s[1 + d] += unwrapped[d];
-    }
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
-                world);
-  for (std::size_t n = 0; n < molecule_ids.size(); ++n) {
-    const double *const s = &sums[4 * n];
-    if (s[0] == shape.vertex_count()) continue;
-    error->all(FLERR,
-               "{}: lost {:.0f} of {} vertices, which left the simulation box, at step {}: cell "
-               "with molecule ID {} "
-               "near ({:.6g}, {:.6g}, {:.6g})",
-               style, shape.vertex_count() - s[0], shape.vertex_count(), update->ntimestep,
-               molecule_ids[n], s[1] / s[0], s[2] / s[0], s[3] / s[0]);
+  std::vector<int> left(molecule_ids.size());
+  for (std::size_t c = 0; c < local.size(); ++c) left[local[c].index] = owned_count[c];
+  MPI_Allreduce(MPI_IN_PLACE, left.data(), static_cast<int>(left.size()), MPI_INT, MPI_SUM, world);
+  const auto broken = std::find_if(left.begin(), left.end(),
+                                   [this](int count) { return count < shape.vertex_count(); });
+  const int index = static_cast<int>(broken - left.begin());
+  const std::string loss =
+      fmt::format("{}: lost {} of {} vertices, which left the simulation box, at step {}: cell "
+                  "with molecule ID {}",
+                  style, shape.vertex_count() - *broken, shape.vertex_count(), update->ntimestep,
+                  molecule_ids[index]);
+  CollectiveStop stop(lmp);
+  for (std::size_t c = 0; c < local.size(); ++c) {
+    if (local[c].index != index) continue;
+    const int *const known = &atoms[c * shape.vertex_count()];
+    const double *const near =
+        atom->x[*std::find_if(known, known + shape.vertex_count(), [](int i) { return i >= 0; })];
+    stop.report(fmt::format("{} near ({:.6g}, {:.6g}, {:.6g})", loss, near[0], near[1], near[2]));
   }
-}
-
-/* ----------------------------------------------------------------------
-   Fills unwrapped with the unwrapped positions of all atoms and ghosts here. From them, not from
-   distances, the image of a ghost is found that belongs to the cell, however far it is.
-------------------------------------------------------------------------- */
-
-void LocalCells::unwrap()
-{
-  if (comm->nprocs == 1) return;
-  const int all = atom->nlocal + atom->nghost;
-  unwrapped.resize(3 * std::size_t(all));
-  unwrapped_rows.resize(all);
-  for (int i = 0; i < all; ++i) {
-    unwrapped_rows[i] = &unwrapped[3 * std::size_t(i)];
-    if (i < atom->nlocal) domain->unmap(atom->x[i], atom->image[i], unwrapped_rows[i]);
-  }
-  comm->forward_comm_array(3, unwrapped_rows.data());
+  stop.check();
+  error->all(FLERR, "{}", loss);
 }
 
 /* ----------------------------------------------------------------------
@@ -217,9 +180,6 @@ void LocalCells::find_neighbors(std::size_t at, tagint first, const std::vector<
         if (atoms[at + w] >= 0) continue;
         const int j = atom->map(first + w);
         if (j < 0) continue;
-        for (int d = 0; d < 3; ++d)
-          offsets[at + w][d] =
-              std::round((unwrapped_rows[j][d] - atom->x[j][d]) / domain->prd[d]) * domain->prd[d];
         atoms[at + w] = j;
         next.push_back(w);
       }
@@ -265,6 +225,141 @@ void LocalCells::find_shared(const std::vector<char> &is_part)
     if (is_part[c])
       local[c].shared = static_cast<int>(
           std::lower_bound(shared.begin(), shared.end(), local[c].index) - shared.begin());
+}
+
+/* ----------------------------------------------------------------------
+   Image flags of the first vertex tell in which box a cell is. Those of the others are not used:
+   LAMMPS's flags begin anew beyond a number of boxes, and what was read may have none. A rank that
+   has not got the first vertex continues from vertices that other ranks have placed.
+------------------------------------------------------------------------- */
+
+void LocalCells::put_together()
+{
+  const std::size_t size = shape.vertex_count();
+  offsets.assign(atoms.size(), Vec3::Zero());
+  placed.assign(atoms.size(), 0);
+  Vec3 periods = Vec3::Zero();
+  for (int d = 0; d < 3; ++d)
+    if (domain->periodicity[d]) periods[d] = domain->prd[d];
+  joined.set_periods(periods);
+
+  for (std::size_t c = 0; c < local.size(); ++c) {
+    local[c].offset = &offsets[c * size];
+    if (!local[c].elements->owned[0]) continue;
+    double zero[3] = {0, 0, 0};
+    domain->unmap(zero, atom->image[atoms[c * size]], offsets[c * size].data());
+    placed[c * size] = 1;
+    joined.join(vertices(c));
+  }
+  bigint before = MAXBIGINT;
+  for (bigint missing = count_missing(); missing > 0; missing = count_missing()) {
+    if (missing >= before)
+      error->all(FLERR,
+                 "{}: parts of cells on different MPI tasks do not meet; raise the ghost "
+                 "cutoff with comm_modify cutoff",
+                 style);
+    before = missing;
+    take_from_neighbors(periods);
+  }
+  check_edges();
+}
+
+/* ----------------------------------------------------------------------
+   the result is valid until the next call
+------------------------------------------------------------------------- */
+
+rbc::JoinedVertices::Cell LocalCells::vertices(std::size_t c)
+{
+  const int size = shape.vertex_count();
+  const int *const known = &atoms[c * size];
+  wrapped.resize(size);
+  is_known.resize(size);
+  for (int v = 0; v < size; ++v) {
+    is_known[v] = known[v] >= 0;
+    if (is_known[v]) wrapped[v] = Vec3(atom->x[known[v]]);
+  }
+  return {wrapped.data(), is_known.data(), &placed[c * size], &offsets[c * size]};
+}
+
+bigint LocalCells::count_missing() const
+{
+  if (comm->nprocs == 1) return 0;
+  bigint missing = 0;
+  for (std::size_t n = 0; n < atoms.size(); ++n) missing += atoms[n] >= 0 && !placed[n];
+  MPI_Allreduce(MPI_IN_PLACE, &missing, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  return missing;
+}
+
+/* ----------------------------------------------------------------------
+   positions of ghosts as their owners have placed them, infinite where they have not
+------------------------------------------------------------------------- */
+
+void LocalCells::take_from_neighbors(const Vec3 &periods)
+{
+  const int all = atom->nlocal + atom->nghost, size = shape.vertex_count();
+  unwrapped.assign(3 * std::size_t(all), HUGE_VAL);
+  unwrapped_rows.resize(all);
+  for (int i = 0; i < all; ++i) unwrapped_rows[i] = &unwrapped[3 * std::size_t(i)];
+  for (std::size_t n = 0; n < atoms.size(); ++n) {
+    const int i = atoms[n];
+    if (i < 0 || i >= atom->nlocal || !placed[n]) continue;
+    for (int d = 0; d < 3; ++d) unwrapped_rows[i][d] = atom->x[i][d] + offsets[n][d];
+  }
+  comm->forward_comm_array(3, unwrapped_rows.data());
+
+  for (std::size_t c = 0; c < local.size(); ++c) {
+    if (local[c].shared < 0) continue;
+    for (int v = 0; v < size; ++v) {
+      const std::size_t n = c * size + v;
+      const int i = atoms[n];
+      if (i < 0 || placed[n] || unwrapped_rows[i][0] == HUGE_VAL) continue;
+      for (int d = 0; d < 3; ++d)
+        if (periods[d] > 0)
+          offsets[n][d] =
+              std::round((unwrapped_rows[i][d] - atom->x[i][d]) / periods[d]) * periods[d];
+      placed[n] = 1;
+    }
+    joined.join(vertices(c));
+  }
+}
+
+/* ----------------------------------------------------------------------
+   the nearest image is the right one as long as edges are shorter than half of the box
+------------------------------------------------------------------------- */
+
+void LocalCells::check_edges()
+{
+  CollectiveStop stop(lmp);
+  for (std::size_t c = 0; c < local.size(); ++c) {
+    const rbc::JoinedVertices::Edge edge = joined.widest(vertices(c));
+    if (edge.ratio <= 1 + 1e-9) continue;
+    const tagint first = first_ids[local[c].index];
+    const Vec3 &near = wrapped[edge.a];
+    stop.report(fmt::format(
+        "{}: the cell with molecule ID {} near ({:.6g}, {:.6g}, {:.6g}) cannot be put together "
+        "across the sides of the box at step {}: atoms {} and {} share an edge and are more than "
+        "half of the box apart",
+        style, molecule_ids[local[c].index], near[0], near[1], near[2], update->ntimestep,
+        first + edge.a, first + edge.b));
+  }
+  stop.check();
+}
+
+LocalCells::Stretch LocalCells::largest_stretch()
+{
+  double ratio = 0;
+  tagint molecule = MAXTAGINT;
+  for (std::size_t c = 0; c < local.size(); ++c) {
+    const rbc::JoinedVertices::Edge edge = joined.most_stretched(vertices(c));
+    if (edge.ratio <= ratio) continue;
+    ratio = edge.ratio;
+    molecule = molecule_ids[local[c].index];
+  }
+  double largest;
+  MPI_Allreduce(&ratio, &largest, 1, MPI_DOUBLE, MPI_MAX, world);
+  if (ratio < largest) molecule = MAXTAGINT;
+  MPI_Allreduce(MPI_IN_PLACE, &molecule, 1, MPI_LMP_TAGINT, MPI_MIN, world);
+  return {largest, molecule};
 }
 
 /* ----------------------------------------------------------------------

@@ -1,6 +1,7 @@
 #ifndef LMP_RBC_LOCAL_CELLS_H
 #define LMP_RBC_LOCAL_CELLS_H
 
+#include "geometry/joined_vertices.h"
 #include "lmptype.h"
 #include "membrane/membrane_model.h"
 #include "pointers.h"
@@ -13,7 +14,8 @@ namespace LAMMPS_NS {
 
 /// The cells made from one template in a group, and what this rank holds of them. A vertex is known
 /// by its atom ID: those of a cell are consecutive, in the order of the template. Cells are
-/// numbered in order of molecule ID.
+/// numbered in order of molecule ID. In a periodic box a vertex is next to those with which it
+/// shares an edge, whatever its image flags.
 class LocalCells : protected Pointers {
  public:
   /// One cell of which this rank owns a vertex.
@@ -22,8 +24,16 @@ class LocalCells : protected Pointers {
     const rbc::CellElements *elements;
     const int *atom;            ///< local index of each vertex, -1 where unknown
     const rbc::Vec3 *offset;    ///< of each vertex, from LAMMPS's position to one near the origin
-    rbc::Vec3 origin;           ///< unwrapped position from which the cell's coordinates count
+    /// From where the cell's coordinates count. The boxes that lie between are those of the first
+    /// vertex's image flags.
+    rbc::Vec3 origin;
     int shared;    ///< number among the cells that several ranks share, -1 if this rank has it all
+
+    /// Of an owned vertex, unwrapped; x are the positions of LAMMPS's atoms.
+    rbc::Vec3 position(int v, const double *const *x) const
+    {
+      return rbc::Vec3(x[atom[v]]) + offset[v] + origin;
+    }
   };
 
   LocalCells(LAMMPS *lmp, const rbc::SurfaceTemplate &shape, int groupbit, std::string style);
@@ -48,7 +58,22 @@ class LocalCells : protected Pointers {
   /// several ranks share. The values of other cells stay as they are.
   void sum_shared(std::vector<double> &values, int width);
 
+  struct Stretch {
+    double ratio;       ///< of an edge to its length in the template
+    tagint molecule;    ///< of the cell that has it
+  };
+  /// Of the edge of all cells that is stretched most. Collective, after update_ownership().
+  Stretch largest_stretch();
+
  private:
+  /// Atoms of a molecule: lowest and highest ID, and how many.
+  struct Extent {
+    tagint molecule, first, last;
+    bigint count;
+
+    void include(const Extent &other);
+  };
+
   const rbc::SurfaceTemplate &shape;
   int groupbit;
   std::string style;
@@ -59,6 +84,8 @@ class LocalCells : protected Pointers {
   std::vector<Cell> local;
   std::vector<int> atoms;
   std::vector<rbc::Vec3> offsets;
+  rbc::JoinedVertices joined;
+  std::vector<char> placed;    ///< whether a vertex' offset is known
   rbc::CellElements whole;
   std::vector<rbc::CellElements> parts;
   std::vector<int> shared;    ///< cells that several ranks share, the same on all ranks
@@ -66,13 +93,21 @@ class LocalCells : protected Pointers {
   std::vector<double> unwrapped;    ///< positions of all atoms here, if there are several ranks
   std::vector<double *> unwrapped_rows;
 
+  // of the current cell
+  std::vector<rbc::Vec3> wrapped;
+  std::vector<char> is_known;
+
+  std::vector<Extent> find_extents() const;
   void check_complete(const std::vector<int> &owned_count) const;
-  void unwrap();
   void find_neighbors(std::size_t at, tagint first, const std::vector<char> &owned, int rings);
   void check_neighbors(std::size_t c, int rings, CollectiveStop &stop) const;
   void find_shared(const std::vector<char> &is_part);
+  void put_together();
+  rbc::JoinedVertices::Cell vertices(std::size_t c);
+  bigint count_missing() const;
+  void take_from_neighbors(const rbc::Vec3 &periods);
+  void check_edges();
   void set_origins();
-  rbc::Vec3 image_shift(int i) const;
 };
 
 }    // namespace LAMMPS_NS

@@ -5,9 +5,11 @@
 #include "contact/surface_patches.h"
 #include "domain.h"
 #include "neighbor.h"
+#include "support/rbc_gather.h"
 #include "update.h"
 
 #include <algorithm>
+#include <utility>
 
 using namespace LAMMPS_NS;
 
@@ -19,6 +21,22 @@ static constexpr double STRETCH = 1.5;
 // for the whole slack; it makes them anew when atoms have moved that far.
 
 static constexpr double FINER = 0.25;
+
+namespace {
+
+/// Atom types of a cell.
+struct TypeRange {
+  tagint molecule;
+  int lowest, highest;
+
+  void include(const TypeRange &other)
+  {
+    lowest = std::min(lowest, other.lowest);
+    highest = std::max(highest, other.highest);
+  }
+};
+
+}    // namespace
 
 /* ---------------------------------------------------------------------- */
 
@@ -44,14 +62,10 @@ void NearSurfaces::init()
 
     const auto &molecules = membranes->local_cells().molecules();
     const auto &first = membranes->local_cells().first_atoms();
-    if (molecules.empty()) continue;
-    cells.resize(std::max<std::size_t>(cells.size(), molecules.back() + 1), {-1, 0});
-    for (std::size_t n = 0; n < molecules.size(); ++n) {
-      if (cells[molecules[n]].shape >= 0)
+    for (std::size_t n = 0; n < molecules.size(); ++n)
+      if (!cells.insert({molecules[n], {static_cast<int>(shapes.size()) - 1, first[n]}}).second)
         error->all(FLERR, "{}: molecule ID {} belongs to two fixes rbc/membrane", style,
                    molecules[n]);
-      cells[molecules[n]] = {static_cast<int>(shapes.size()) - 1, first[n]};
-    }
   }
   if (shapes.empty())
     error->all(FLERR, "{} needs a fix rbc/membrane: it knows the cells and their triangles", style);
@@ -81,24 +95,27 @@ double NearSurfaces::longest_edge() const
 
 const NearSurfaces::Cell *NearSurfaces::cell_of(int i) const
 {
-  const tagint molecule = atom->molecule[i];
-  if (molecule < 0 || molecule >= static_cast<tagint>(cells.size()) || cells[molecule].shape < 0)
-    return nullptr;
-  const Cell &cell = cells[molecule];
+  const auto found = cells.find(atom->molecule[i]);
+  if (found == cells.end()) return nullptr;
+  const Cell &cell = found->second;
   const tagint vertex = atom->tag[i] - cell.first;    // others may have the same molecule ID
   return vertex >= 0 && vertex < shapes[cell.shape].surface->vertex_count() ? &cell : nullptr;
 }
 
-const NearSurfaces::Shape *NearSurfaces::shape_of(int i) const
+tagint NearSurfaces::cell_of_mixed_type() const
 {
-  const Cell *const cell = cell_of(i);
-  return cell ? &shapes[cell->shape] : nullptr;
+  std::vector<TypeRange> mine;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (is_vertex(i)) mine.push_back({atom->molecule[i], atom->type[i], atom->type[i]});
+  for (const TypeRange &cell : gather_molecules(std::move(mine), world))
+    if (cell.lowest != cell.highest) return cell.molecule;
+  return 0;
 }
 
 double NearSurfaces::area(int i) const
 {
-  const Cell *const cell = cell_of(i);
-  return shapes[cell->shape].surface->vertex_area[atom->tag[i] - cell->first];
+  const Cell &cell = *cell_at[i];
+  return shapes[cell.shape].surface->vertex_area[atom->tag[i] - cell.first];
 }
 
 /* ----------------------------------------------------------------------
@@ -125,12 +142,14 @@ void NearSurfaces::build(double range, double slack_of_ghosts, double stale)
 {
   allowed = slack_of_ghosts / 2;
   built.hold(atom->x[0], atom->nlocal + atom->nghost);
+  cell_at.resize(atom->nlocal + atom->nghost);
+  for (std::size_t i = 0; i < cell_at.size(); ++i) cell_at[i] = cell_of(static_cast<int>(i));
   collect_triangles(longest_known_edge(range, slack_of_ghosts + stale));
   stop->check();
   molecules.assign(atom->nlocal, rbc::NearTriangles::NO_SURFACE);
   int points = 0;
   for (int i = 0; i < atom->nlocal; ++i) {
-    if (!cell_of(i)) continue;
+    if (!cell_at[i]) continue;
     molecules[i] = atom->molecule[i];
     points = i + 1;
   }
@@ -152,7 +171,7 @@ void NearSurfaces::collect_triangles(double longest)
   template_triangle.clear();
   const int all = atom->nlocal + atom->nghost;
   for (int i = 0; i < all; ++i) {
-    const Cell *const cell = cell_of(i);
+    const Cell *const cell = cell_at[i];
     if (!cell) continue;
     const Shape &shape = shapes[cell->shape];
     for (int t : shape.triangles_by_first_vertex[atom->tag[i] - cell->first]) {
@@ -175,8 +194,8 @@ void NearSurfaces::collect_triangles(double longest)
 
 bool NearSurfaces::sees_own(int i, int triangle) const
 {
-  const Cell *const cell = cell_of(i);
-  const auto &patch = shapes[cell->shape].patches[atom->tag[i] - cell->first];
+  const Cell &cell = *cell_at[i];
+  const auto &patch = shapes[cell.shape].patches[atom->tag[i] - cell.first];
   return !std::binary_search(patch.begin(), patch.end(), template_triangle[triangle]);
 }
 
@@ -232,5 +251,6 @@ double NearSurfaces::bytes() const
          triangles.capacity() * sizeof(rbc::NearTriangles::Triangle) +
          template_triangle.capacity() * sizeof(int) +
          molecules.capacity() * sizeof(rbc::NearTriangles::Surface) +
-         cells.capacity() * sizeof(Cell);
+         cells.size() * sizeof(decltype(cells)::value_type) +
+         cell_at.capacity() * sizeof(const Cell *);
 }

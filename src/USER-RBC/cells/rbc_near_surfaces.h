@@ -10,6 +10,7 @@
 
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -47,9 +48,12 @@ class NearSurfaces : protected Pointers {
   /// seen nearer to it than `range`, at most that of build().
   const std::vector<Contact> &contacts(double range);
 
-  bool is_vertex(int i) const { return shape_of(i) != nullptr; }
+  bool is_vertex(int i) const { return cell_of(i) != nullptr; }
 
-  /// An atom's share of the area of its cell at rest.
+  /// Molecule ID of the first cell whose vertices are of more than one atom type, or 0. Collective.
+  tagint cell_of_mixed_type() const;
+
+  /// A vertex' share of the area of its cell at rest, after build().
   double area(int i) const;
 
   /// Who ends the run, or takes a step again, for what is found here.
@@ -73,7 +77,8 @@ class NearSurfaces : protected Pointers {
   std::string style;
   std::shared_ptr<CollectiveStop> stop;
   std::vector<Shape> shapes;
-  std::vector<Cell> cells;    ///< by molecule ID
+  std::unordered_map<tagint, Cell> cells;    ///< by molecule ID
+  std::vector<const Cell *> cell_at;         ///< at build(), of all atoms here, ghosts too
   rbc::NearTriangles finder;
   std::vector<rbc::NearTriangles::Triangle> triangles;
   std::vector<int> template_triangle;    ///< of each, if vertices see their own cells
@@ -83,7 +88,6 @@ class NearSurfaces : protected Pointers {
   double allowed = 0;                                    ///< displacement of an atom since build()
 
   const Cell *cell_of(int i) const;
-  const Shape *shape_of(int i) const;
   double longest_known_edge(double range, double slack) const;
   void collect_triangles(double longest);
   bool sees_own(int i, int triangle) const;

@@ -1,7 +1,9 @@
 #include "support/rbc_arguments.h"
 
+#include "atom.h"
 #include "error.h"
 #include "input.h"
+#include "label_map.h"
 #include "utils.h"
 
 #include <algorithm>
@@ -131,6 +133,18 @@ int Arguments::whole(int least, int most, const std::string &name)
     refuse(named(name), typed, fmt::format("between {} and {}", least, most));
   if (value < least || value > most) refuse(named(name), typed, range_of_integers(least, most));
   return static_cast<int>(value);
+}
+
+int Arguments::atom_type(const std::string &name)
+{
+  if (at_end() || !atom->labelmapflag || utils::is_integer(as_ascii(arg_[next_])))
+    return whole(1, atom->ntypes, name);
+  const std::string label = text();
+  const int type = atom->lmap->find(label, Atom::ATOM);
+  if (type < 1)
+    refuse(named(name), '\'' + label + '\'',
+           fmt::format("a type label or an integer {}", range_of_integers(1, atom->ntypes)));
+  return type;
 }
 
 bool Arguments::logical()

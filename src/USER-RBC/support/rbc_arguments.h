@@ -63,6 +63,9 @@ class Arguments : protected Pointers {
   int whole(int least, int most, const std::string &name = "");
   bool logical();
 
+  /// A number of an atom type or its type label.
+  int atom_type(const std::string &name = "");
+
   /// A number or v_name. Whether the variable exists is checked later, by NumberOrVariable.
   NumberOrVariable number_or_variable();
   std::array<NumberOrVariable, 3> vector();
