@@ -66,17 +66,6 @@ TEST(RigidSurface, CarriesItsFluid)
   });
 }
 
-/// Drag over 6 pi viscosity a U of a simple cubic array of n^3 cells a sphere, U the mean velocity.
-double array(KernelKind kernel, double radius, double markers, int n)
-{
-  const Grid grid{{n, n, n}, {0, 0, 0}, {1, 1, 1}, false};
-  Scene scene(grid, even(grid, {1, 1, ranks()}), kernel,
-              {sphere({n / 2 + 0.1, n / 2 + 0.2, n / 2 + 0.3}, markers, 1.2)}, false, 1e-4);
-  scene.flow.forcing.mean = {1, 0, 0};
-  scene.solve(no_force, at_rest);
-  return -scene.force(0)[0] / (6 * pi * radius);
-}
-
 /// Zick & Homsy, J. Fluid Mech. 115 (1982) 13, Table 2: up to a volume fraction of 0.343.
 TEST(RigidSurface, SimpleCubicArray)
 {
