@@ -142,6 +142,18 @@ class Spheres(unittest.TestCase):
         for n in (1, 2, 3, 4, 6):
             self.assertLess(abs(result.thermo[f"f_w[{n}]"][0]), 0.01 * expected)
 
+    def test_torque_beyond_the_last_image_flag(self):
+        # across a side of the box; flags begin anew there once it has crossed 511 boxes
+        box, u = (20, 16, 16), 1e-3
+        torques = []
+        for flags in ("-1*(x>10)", "511*(x>10)-512*(x<=10)"):
+            result = walls(box, sphere((10, 8.1, 8.2), 3.5), drive=f"wall zlo {-u} 0 0 wall zhi {u} 0 0", **PLATES,
+                           before=f"displace_atoms w move -9 0 0\nvariable f atom {flags}\n"
+                                  "set group w image v_f NULL NULL")
+            torques.append([result.thermo[f"f_w[{n}]"][0] for n in (4, 5, 6)])
+        self.assertGreater(torques[0][1], VISCOSITY * 3.5**3 * u / 8)
+        np.testing.assert_allclose(torques[1], torques[0], rtol=1e-9, atol=1e-9 * torques[0][1])
+
     def test_drag_with_a_mean_velocity(self):
         # Zick & Homsy: 6 pi eta a K U, K = 4.292 at 12.5 %; with the offset of a plane, 2 % per (4 dx / a)^2 or so
         n, share = 32, 0.31017525

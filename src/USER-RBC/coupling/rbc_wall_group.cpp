@@ -7,10 +7,24 @@
 #include "modify.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 using namespace LAMMPS_NS;
+
+namespace {
+
+/// An image as seen from another one. Image flags begin anew after the last, and so do differences.
+imageint image_from(imageint first, imageint image)
+{
+  imageint seen = 0;
+  for (int shift : {0, IMGBITS, IMG2BITS})
+    seen |= (((image >> shift) - (first >> shift) + IMGMAX) & IMGMASK) << shift;
+  return seen;
+}
+
+}    // namespace
 
 /* ---------------------------------------------------------------------- */
 
@@ -102,14 +116,20 @@ void WallGroup::place(double fraction)
   moved_ = true;
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   torque does not depend on which box the wall is in: positions are unwrapped from one of its atoms
+------------------------------------------------------------------------- */
 
 std::array<double, 6> WallGroup::total() const
 {
+  imageint first = 0;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit_) first = std::max(first, atom->image[i]);
+  MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_LMP_IMAGEINT, MPI_MAX, world);
   double centre[4] = {0, 0, 0, 0}, x[3];
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & groupbit_)) continue;
-    domain->unmap(atom->x[i], atom->image[i], x);
+    domain->unmap(atom->x[i], image_from(first, atom->image[i]), x);
     for (int d = 0; d < 3; ++d) centre[d] += x[d];
     centre[3] += 1;
   }
@@ -118,7 +138,7 @@ std::array<double, 6> WallGroup::total() const
   std::array<double, 6> sums{};
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & groupbit_)) continue;
-    domain->unmap(atom->x[i], atom->image[i], x);
+    domain->unmap(atom->x[i], image_from(first, atom->image[i]), x);
     double arm[3], f[3];
     for (int d = 0; d < 3; ++d) {
       arm[d] = x[d] - centre[d] / centre[3];
