@@ -119,7 +119,7 @@ def verdict(code, printed):
 def not_finite(printed):
     """Whether a line of thermodynamic output holds a number that is none."""
     for table in re.findall(r"^ +Step .*?^Loop time", printed, re.MULTILINE | re.DOTALL):
-        if re.search(r"(?<!\w)-?(nan|inf)(?!\w)", table, re.IGNORECASE):
+        if re.search(r"(?<!\w)-?(nan|inf)(?!\w)", table):    # as LAMMPS prints them
             return True
     return False
 

@@ -44,7 +44,7 @@ class Fuzzers(unittest.TestCase):
                 corpus = Path("corpus") / target
                 shutil.rmtree(corpus, ignore_errors=True)
                 corpus.mkdir(parents=True)
-                printed = ended_well(build / f"{target}_fuzz", "-seed=18", f"-max_total_time={SECONDS}", "-timeout=20",
+                printed = ended_well(build / f"{target}_fuzz", "-seed=18", f"-max_total_time={SECONDS}", "-timeout=120",
                                      f"-dict=seeds/{target}.dict", corpus, f"seeds/{target}")
                 print(printed.strip().splitlines()[-1])
 
