@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs from Debian whatever of the packages below is missing. Does nothing when all are there.
+# Installs from Debian whatever of the packages below is missing, and of those named as arguments. Does nothing when all
+# are there.
 . "$(dirname "$0")/common.sh"
 
 packages=(
@@ -7,6 +8,8 @@ packages=(
   libopenmpi-dev openmpi-bin libfftw3-dev libeigen3-dev libgtest-dev libbenchmark-dev
   python3 python3-numpy python3-matplotlib python3-vtk9 xvfb
 )
+
+packages+=("$@")
 
 missing=()
 for package in "${packages[@]}"; do

@@ -84,6 +84,7 @@ def place(name, offset, symbol):
     return "; from ".join(ours) or pairs and not pairs[0].startswith("?") and pairs[0] or symbol
 
 
+@unittest.skipIf(os.environ.get("RBC_SANITIZE"), "the sanitizers count allocations themselves")
 class Allocations(unittest.TestCase):
     @classmethod
     def setUpClass(cls):

@@ -156,6 +156,23 @@ TEST(Template, TriangleWithoutAreaIsRefused)
   expect_refused(mesh, "has no area");
 }
 
+TEST(Template, WhatRoundingLeavesNothingOfIsRefused)
+{
+  Mesh mesh = octahedron();
+  for (const double height : {1e-5, 1e-7}) {    // of the triangles above an edge
+    mesh.vertices[4] = Vec3(1, 1, 0) + height * Vec3(1, 1, 1);
+    if (height > 1e-6)
+      EXPECT_NO_THROW(rbc::SurfaceTemplate(mesh.vertices, mesh.triangles));
+    else
+      expect_refused(mesh, "has no area");
+  }
+  mesh.vertices[4] = {0, 0, 1e61};
+  expect_refused(mesh, "vertex 5 is too far away");
+  mesh = octahedron();
+  for (Vec3 &x : mesh.vertices) x *= 1e-90;
+  expect_refused(mesh, "has no area");
+}
+
 TEST(Template, MissingVertexIsRefused)
 {
   for (int missing : {-1, 6}) {

@@ -10,6 +10,7 @@ import re
 import shutil
 import subprocess
 import sys
+import unittest
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -164,32 +165,58 @@ def dump_line(every, name="atoms.dump", columns="id mol type xu yu zu fx fy fz")
 _numbers = itertools.count(1)
 
 
-def attempt(script, ranks=1, plugin=False, timeout=120, files=None):
-    """Runs the script; files: name -> text, written beside it first."""
-    folder = Path.cwd() / f"case{next(_numbers)}"
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir()
-    for name, text in (files or {}).items():
-        (folder / name).write_text(text)
-    executable = os.environ["LMP"] if plugin else os.environ["LMP_RBC"]
-    if plugin:
-        script = f"plugin load {os.environ['RBC_PLUGIN']}\n" + script
-    (folder / "in.case").write_text(script)
-    command = [executable, "-in", "in.case", "-log", "log.case"]
-    if ranks > 1:    # one rank starts faster by itself
-        command = [os.environ["MPIEXEC"], "-np", str(ranks), *command]
-    # A run that ends removes the folder of Open MPI's sessions, which another may be about to use.
-    with open(folder / "printed", "w+") as output, TemporaryDirectory() as session:
-        process = subprocess.Popen(
-            command, cwd=folder, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
-            env={**os.environ, **ENVIRONMENT, "OMPI_MCA_orte_tmpdir_base": session})
+class Job:
+    """A run that has been started; its end is that of the block it is used in.
+
+    files: name -> text, written beside the script first. prepare(folder) is called before the start, before() in the
+    process that is started.
+    """
+
+    def __init__(self, script, ranks=1, plugin=False, files=None, prepare=None, before=None):
+        if plugin and os.environ.get("RBC_SANITIZE"):
+            raise unittest.SkipTest("the runtime of the sanitizers is in lmp_rbc, not in stock LAMMPS")
+        self.folder = Path.cwd() / f"case{next(_numbers)}"
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.folder.mkdir()
+        for name, text in (files or {}).items():
+            (self.folder / name).write_text(text)
+        executable = os.environ["LMP"] if plugin else os.environ["LMP_RBC"]
+        if plugin:
+            script = f"plugin load {os.environ['RBC_PLUGIN']}\n" + script
+        (self.folder / "in.case").write_text(script)
+        if prepare:
+            prepare(self.folder)
+        command = [executable, "-in", "in.case", "-log", "log.case"]
+        if ranks > 1:    # one rank starts faster by itself
+            command = [os.environ["MPIEXEC"], "-np", str(ranks), *command]
+        # A run that ends removes the folder of Open MPI's sessions, which another may be about to use.
+        self._session = TemporaryDirectory()
+        with open(self.folder / "printed", "w") as output:
+            self.process = subprocess.Popen(
+                command, cwd=self.folder, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
+                preexec_fn=before, restore_signals=before is None,
+                env={**os.environ, **ENVIRONMENT, "OMPI_MCA_orte_tmpdir_base": self._session.name})
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.process.poll() is None:
+            self.process.terminate()
+        self.process.wait()
+        self._session.cleanup()
+
+    def end(self, timeout=120):
         try:
-            code = process.wait(timeout)
+            code = self.process.wait(timeout)
         except subprocess.TimeoutExpired:
-            process.terminate()
-            process.wait()
-            raise AssertionError(f"{folder}: no end after {timeout} s") from None
-    return Result(folder, code, (folder / "printed").read_text(errors="replace"))
+            raise AssertionError(f"{self.folder}: no end after {timeout} s") from None
+        return Result(self.folder, code, (self.folder / "printed").read_text(errors="replace"))
+
+
+def attempt(script, ranks=1, timeout=120, **options):
+    with Job(script, ranks, **options) as job:
+        return job.end(timeout)
 
 
 def run(script, ranks=1, **options):

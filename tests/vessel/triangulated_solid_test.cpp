@@ -145,6 +145,14 @@ TEST(TriangulatedSolid, SaysWhatIsWrong)
   box = along_x;
   box.length[0] = 7.1;
   expect(problem(tube, box), "belongs to one triangle only");
+
+  for (const double far : {1e150, 1e200}) {    // its square is a number, and is not
+    bad = good;
+    bad[3][0][1] = far;
+    expect(problem(bad, test::open_space), "too far apart");
+  }
+  bad.assign(4, {Vec3::Ones(), Vec3::Ones(), Vec3::Ones()});
+  expect(problem(bad, test::open_space), "no triangle has an area");
 }
 
 }    // namespace

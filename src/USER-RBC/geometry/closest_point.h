@@ -65,7 +65,7 @@ inline double triangle_distance_square(PlainVector x, PlainVector a, PlainVector
   const double least = std::min(std::min(dot(cross(ab, ax), normal), dot(cross(bc, bx), normal)),
                                 dot(cross(ca, cx), normal));
   const double face = height * height / area2;
-  return (least > 0) & (area2 > 0) ? std::min(face, edges) : edges;
+  return ((least > 0) & (area2 > 0)) ? std::min(face, edges) : edges;
 }
 
 }    // namespace rbc

@@ -58,12 +58,13 @@ class PointBins {
   int count_ = 0;
   std::unordered_map<long, std::vector<std::pair<int, Vec3>>> members_;
 
-  /// Outside a wall, the last one before it.
+  /// Outside a wall, the last one before it. Places too far off for a number of bins share one.
   Bin bin(const Vec3 &x) const
   {
     Bin bin;
     for (int d = 0; d < 3; ++d) {
-      bin[d] = static_cast<int>(std::floor((x[d] - box_.lo[d]) / box_.length[d] * bins_[d]));
+      const double at = std::floor((x[d] - box_.lo[d]) / box_.length[d] * bins_[d]);
+      bin[d] = static_cast<int>(std::clamp(at, -1e9, 1e9));
       if (!box_.periodic[d]) bin[d] = std::clamp(bin[d], 0, bins_[d] - 1);
     }
     return bin;

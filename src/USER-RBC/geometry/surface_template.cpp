@@ -15,6 +15,11 @@ namespace {
 
 using Corners = SurfaceTemplate::Corners;
 
+// over the longest edge: of a triangle that is flatter, rounding leaves no angles
+constexpr double least_height = 1e-6;
+// squares of areas and volumes of larger ones are no numbers
+constexpr double largest_coordinate = 1e60;
+
 void require(bool condition, const std::string &problem)
 {
   if (!condition) throw std::invalid_argument(problem);
@@ -120,14 +125,19 @@ void SurfaceTemplate::connect_vertices()
 /// Returns the normal of each triangle.
 std::vector<Vec3> SurfaceTemplate::measure_triangles()
 {
+  for (int v = 0; v < vertex_count(); ++v)
+    require(!(vertices[v].array().abs() > largest_coordinate).any(),
+            "vertex " + std::to_string(v + 1) + " is too far away");
   std::vector<Vec3> normals(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto &[i, j, k] = triangles[t];
     const Vec3 e1 = vertices[j] - vertices[i], e2 = vertices[k] - vertices[i];
     const Vec3 cross = e1.cross(e2);
     const double twice_area = cross.norm();
-    require(twice_area > 0, "triangle " + std::to_string(t + 1) + " has no area");
+    const double longest = std::max({e1.squaredNorm(), e2.squaredNorm(), (e2 - e1).squaredNorm()});
     const double determinant = twice_area * twice_area;
+    require(twice_area > least_height * longest && determinant > 0,
+            "triangle " + std::to_string(t + 1) + " has no area");
     reference.push_back({e2.squaredNorm() / determinant, -e1.dot(e2) / determinant,
                          e1.squaredNorm() / determinant, twice_area / 2});
     normals[t] = cross / twice_area;

@@ -55,7 +55,11 @@ void MeshConnectivity::weld(std::vector<Triangle> &triangles)
       hi = hi.cwiseMax(corner);
     }
   }
-  const double tolerance = weld_share * (hi - lo).norm();
+  const double diagonal = (hi - lo).norm();
+  require(diagonal > 0, "no triangle has an area");
+  require(std::isfinite(std::pow(diagonal, 3)),
+          "its corners are too far apart: " + text(lo) + " and " + text(hi));
+  const double tolerance = weld_share * diagonal;
   PointBins bins({lo, (hi - lo).array() + 2 * tolerance, {false, false, false}},
                  std::max(edge, 4 * tolerance));
   std::vector<Triangle> kept;

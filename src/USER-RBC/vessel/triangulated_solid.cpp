@@ -86,9 +86,12 @@ void TriangulatedSolid::measure_centres()
       hi_[d] = box_.lo[d] + box_.length[d];
     }
   const Vec3 length = hi_ - lo_;
-  const double width = std::cbrt(length.prod() / most_cells);
+  double width = std::cbrt(length.prod() / most_cells);
+  const auto cells = [&](int d) { return std::max(1.0, std::floor(length[d] / width)); };
+  // of a thin surface there are more, as there is one across it at least
+  while (cells(0) * cells(1) * cells(2) > most_cells) width *= 1.1;
   for (int d = 0; d < 3; ++d) {
-    cells_[d] = std::max(1, static_cast<int>(length[d] / width));
+    cells_[d] = static_cast<int>(cells(d));
     cell_[d] = length[d] / cells_[d];
   }
   rounding_ = 1e-4 * cell_.norm();    // of the distances of centres
