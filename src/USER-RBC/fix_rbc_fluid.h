@@ -49,6 +49,8 @@ class FixRBCFluid : public Fix {
   CollectiveStop stop;
 
   void check_box() const;
+  void check_unchanged() const;
+  void check_averages() const;
   void check_drivers() const;
   void advance_alone();
   double inside_value(int);

@@ -13,6 +13,7 @@
 #include "group.h"
 #include "modify.h"
 #include "motion/integrators.h"
+#include "support/rbc_out_of_memory.h"
 #include "support/rbc_pair_parts.h"
 #include "update.h"
 
@@ -352,7 +353,7 @@ void FixRBCIB::setup(int /*vflag*/)
     masses->reset_counts();
   else if (flow->has_inertia() && flow->flow().steps() == 0)
     markers->interpolate();
-  steps->setup();
+  do_or_run_out(lmp, fmt::format("Fix rbc/ib {}", id), [this] { steps->setup(); });
 
   std::vector<StepPart *> parts;
   for (CellMembranes *cells : all_cell_membranes(lmp)) parts.push_back(cells);
