@@ -102,7 +102,7 @@ void FixRBCFluid::check_unchanged() const
 }
 
 /* ----------------------------------------------------------------------
-   fix ave/grid frees its averages twice when its grid moves
+   fix ave/grid ends in a segmentation fault when its grid moves
 ------------------------------------------------------------------------- */
 
 void FixRBCFluid::check_averages() const
