@@ -12,6 +12,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -59,6 +60,16 @@ void FixRBCFluid::check_box() const
 int FixRBCFluid::setmask()
 {
   return INITIAL_INTEGRATE | FINAL_INTEGRATE | POST_RUN;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixRBCFluid::modify_param(int narg, char **arg)
+{
+  if (strcmp(arg[0], "warn") != 0) return 0;
+  if (narg < 2) utils::missing_cmd_args(FLERR, "fix_modify warn", error);
+  flow->scene().choose_warnings(utils::logical(FLERR, arg[1], false, lmp));
+  return 2;
 }
 
 /* ---------------------------------------------------------------------- */

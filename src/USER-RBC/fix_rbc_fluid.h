@@ -22,6 +22,7 @@ class FixRBCFluid : public Fix {
  public:
   FixRBCFluid(class LAMMPS *, int, char **);
   int setmask() override;
+  int modify_param(int, char **) override;
   void init() override;
   void setup(int) override;
   void initial_integrate(int) override;

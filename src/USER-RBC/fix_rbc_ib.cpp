@@ -354,6 +354,7 @@ void FixRBCIB::setup(int /*vflag*/)
   else if (flow->has_inertia() && flow->flow().steps() == 0)
     markers->interpolate();
   do_or_run_out(lmp, fmt::format("Fix rbc/ib {}", id), [this] { steps->setup(); });
+  flow->scene().print(*flow);
 
   std::vector<StepPart *> parts;
   for (CellMembranes *cells : all_cell_membranes(lmp)) parts.push_back(cells);
@@ -450,6 +451,9 @@ void FixRBCIB::post_run()
   if (steps->rejected() > 0)
     text += fmt::format("Steps taken again: {}, {} of them gone wrong\n", steps->rejected(),
                         steps->failed());
+  const double radius = steps->integrator().spectral_radius();
+  if (radius > 0)
+    text += fmt::format("Timestep times spectral radius: {:.4g}\n", steps->last_dt() * radius);
   if (steps->failed() > 0) text += fmt::format("The last: {}\n", steps->last_failure());
   utils::logmesg(lmp, text);
   warn();

@@ -32,7 +32,7 @@ DrivenFlow::DrivenFlow(LAMMPS *lmp, std::string style, const FluidSettings &sett
                        FlowForcing forcing) :
     Pointers(lmp),
     style_(std::move(style)), settings_(settings), forcing_(std::move(forcing)),
-    inside_(lmp, "f" + style_.substr(1), settings.inside), stop_(lmp)
+    inside_(lmp, "f" + style_.substr(1), settings.inside), stop_(lmp), scene_(lmp, style_)
 {
   build();
 }
@@ -52,7 +52,7 @@ double DrivenFlow::smallest_spacing() const
 int DrivenFlow::layers_needed() const
 {
   if (!driven_ && !walls_) return 0;
-  return ghost_layers(lmp, style_, settings_.cells, {cells_per_step_, sheets_});
+  return marker_layers(lmp, style_, settings_.cells, {cells_per_step_, sheets_});
 }
 
 /* ---------------------------------------------------------------------- */

@@ -20,8 +20,8 @@ static constexpr int KERNEL_LAYERS = 2;
    cells_per_step allows for both.
 ------------------------------------------------------------------------- */
 
-int LAMMPS_NS::ghost_layers(LAMMPS *lmp, const std::string &style, const std::array<int, 3> &cells,
-                            const MarkerReach &reach)
+int LAMMPS_NS::marker_layers(LAMMPS *lmp, const std::string &style, const std::array<int, 3> &cells,
+                             const MarkerReach &reach)
 {
   const double skin = lmp->neighbor->skin, *const prd = lmp->domain->prd;
   double layers = 0;

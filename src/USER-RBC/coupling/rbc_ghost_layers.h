@@ -16,8 +16,8 @@ struct MarkerReach {
 
 /// Layers of fluid cells that must be known around a subdomain of LAMMPS. An error that begins with
 /// `style` if the skin alone asks for more than half of the grid, of so many cells in each direction.
-int ghost_layers(LAMMPS *lmp, const std::string &style, const std::array<int, 3> &cells,
-                 const MarkerReach &reach);
+int marker_layers(LAMMPS *lmp, const std::string &style, const std::array<int, 3> &cells,
+                  const MarkerReach &reach);
 
 }    // namespace LAMMPS_NS
 
