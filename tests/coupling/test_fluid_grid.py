@@ -123,7 +123,8 @@ class ChangedAfterwards(BadInput):
             "boundary in x": (dict(last="change_box all boundary f p f"), ["rbc/fluid", "periodic", "x and y"]),
             "box": (dict(last="change_box all z final 0 14"), ["Fix rbc/fluid flow", "box has changed"]),
             "scaled": (dict(last="change_box all x scale 1.1 remap"), ["Fix rbc/fluid flow", "box has changed"]),
-            "triclinic": (dict(last="change_box all triclinic", membrane=None, thermo=None), ["rbc/fluid", "orthogonal"]),
+            "triclinic": (dict(last="change_box all triclinic", membrane=None, thermo=None),
+                          ["rbc/fluid", "orthogonal"]),
             "deform": (dict(last="fix shape all deform 1 x scale 1.1"), ["rbc/fluid", "changing simulation box"]),
             "barostat": (dict(last="fix press all press/berendsen x 1 1 1000"),
                          ["rbc/fluid", "changing simulation box"]),
@@ -134,7 +135,8 @@ class ChangedAfterwards(BadInput):
     def test_averages_while_the_grid_moves(self):
         average = "fix mean all ave/grid 1 2 2 12 12 12 f_flow:grid:velocity[1]\n"
         self.check({
-            "fix balance": (dict(processors="processors 2 1 1", last=average + "fix even all balance 5 1.0 shift xyz 10 1.0"),
+            "fix balance": (dict(processors="processors 2 1 1",
+                                 last=average + "fix even all balance 5 1.0 shift xyz 10 1.0"),
                             ["Fix rbc/fluid flow", "fix ave/grid mean", "balance"]),
             "balance": (dict(processors="processors 2 1 1", last=average + "run 0\nbalance 1.0 x 0.3"),
                         ["Fix rbc/fluid flow", "fix ave/grid mean", "balance"])}, ranks=2)

@@ -60,7 +60,8 @@ class Numbers(unittest.TestCase):
         result = run(scene(units="units real", box="region box block 0 12e4 0 12e4 0 12e4",
                            molecule=f"molecule rbc {POTENTIALS}/rbc_162.mol scale 1e4",
                            cells="rbc/create rbc single 6e4 6e4 6e4", neighbor="neighbor 1e4 bin", fluid=fluid,
-                           membrane="fix mem all rbc/membrane rbc skalak 1e-9 1 bending 1e-4", timestep="timestep 1e-3"))
+                           membrane="fix mem all rbc/membrane rbc skalak 1e-9 1 bending 1e-4",
+                           timestep="timestep 1e-3"))
         _, _, volume = edges_and_volume("rbc_162.mol")
         radius = 1e4 * (0.75 / np.pi * volume)**(1 / 3)
         stress = 9.033e-4 * 1.2e-8 / 12e4 / 4.184e-4    # g/mol A/fs^2 in kcal/mol/A
@@ -83,9 +84,11 @@ class Numbers(unittest.TestCase):
     def test_fastest_wall(self):
         ball = "region ball sphere 2 2 2 1.5\nrbc/surface ball type 2 spacing 0.9 mass 1\n" \
                "group ball type 2\ngroup cells type 1"
-        result = run(scene(boundary=None, create_box="create_box 2 box angle/types 1", cells=SHEAR["cells"] + "\n" + ball,
+        result = run(scene(boundary=None, create_box="create_box 2 box angle/types 1",
+                           cells=SHEAR["cells"] + "\n" + ball,
                            membrane=SHEAR["membrane"].replace("all", "cells"),
-                           fluid=SHEAR["fluid"].split(" wall")[0] + "\nfix ball ball rbc/wall flow velocity 3e-4 0 4e-4",
+                           fluid=SHEAR["fluid"].split(" wall")[0] +
+                           "\nfix ball ball rbc/wall flow velocity 3e-4 0 4e-4",
                            ib=SHEAR["ib"].replace("all", "cells")))
         _, _, volume = edges_and_volume("rbc_162.mol")
         radius = (0.75 / np.pi * volume)**(1 / 3)
@@ -107,8 +110,8 @@ class Warnings(unittest.TestCase):
             "no contact": (dict(TWO), ["nothing keeps the 2 cells of fix rbc/membrane mem from passing",
                                        "nothing repels the 2 cells from the plates"]),
             "not of both kinds": (
-                dict(TWO, create_box="create_box 2 box angle/types 1", before="mass 2 1\nset mol 2 type 2\ngroup one type 1\n"
-                     "group two type 2\npair_style rbc/jkr 1.2\npair_coeff 1 1 repulsive 0.5 1.2\n"
+                dict(TWO, create_box="create_box 2 box angle/types 1", before="mass 2 1\nset mol 2 type 2\n"
+                     "group one type 1\ngroup two type 2\npair_style rbc/jkr 1.2\npair_coeff 1 1 repulsive 0.5 1.2\n"
                      "pair_coeff 2 2 repulsive 0.5 1.2\npair_coeff 1 2 none",
                      membrane=SHEAR["membrane"].replace("all", "one") + "\n" + other, last=REPELLED),
                 ["nothing keeps the 1 cells of fix rbc/membrane mem and the 1 of fix rbc/membrane stiff from passing"]),
@@ -116,10 +119,11 @@ class Warnings(unittest.TestCase):
                               ["repel each other from 0.5 fluid spacings on; below 1 "]),
             "long edges": (dict(fluid=PLATES.replace("dx 1.2", "dx 0.4"), neighbor="neighbor 0.4 bin",
                                 timestep="timestep 20"),
-                           [f"mem are {mean / 0.4:.3g} fluid spacings long on average, and 0.5 to 2 are resolved: use a "
-                            "larger dx or a template with more vertices"]),
-            "short edges": (dict(fluid=PLATES.replace("dx 1.2", "dx 3")), [f"mem are {mean / 3:.3g} fluid spacings long on average, and 0.5 to 2 are resolved: use a "
-                             "smaller dx or a template with fewer vertices"])}
+                           [f"mem are {mean / 0.4:.3g} fluid spacings long on average, and 0.5 to 2 are resolved: "
+                            "use a larger dx or a template with more vertices"]),
+            "short edges": (dict(fluid=PLATES.replace("dx 1.2", "dx 3")),
+                            [f"mem are {mean / 3:.3g} fluid spacings long on average, and 0.5 to 2 are resolved: "
+                             "use a smaller dx or a template with fewer vertices"])}
         results = in_parallel(lambda name: run(scene(**cases[name][0])), [(name,) for name in cases])
         for name, result in zip(cases, results):
             with self.subTest(name):

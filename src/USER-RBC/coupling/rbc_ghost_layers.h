@@ -14,8 +14,9 @@ struct MarkerReach {
   bool sheets = false;          ///< their velocities need differences of the flow
 };
 
-/// Layers of fluid cells that must be known around a subdomain of LAMMPS. An error that begins with
-/// `style` if the skin alone asks for more than half of the grid, of so many cells in each direction.
+/// Layers of fluid cells that must be known around a subdomain of LAMMPS. The grid has so many
+/// `cells` in each direction: an error that begins with `style` if the skin alone asks for more
+/// than half of them.
 int marker_layers(LAMMPS *lmp, const std::string &style, const std::array<int, 3> &cells,
                   const MarkerReach &reach);
 
