@@ -4,6 +4,7 @@
 
 #include <fftw3.h>
 #include <memory>
+#include <new>
 
 namespace fluid {
 
@@ -15,7 +16,7 @@ template <typename T> struct View {
   T &operator()(int i, int j, int k) const { return data[box.offset(i, j, k)]; }
 };
 
-/// SIMD-aligned memory of fixed length.
+/// SIMD-aligned memory of fixed length. Throws std::bad_alloc if there is none.
 template <typename T> class Buffer {
  public:
   Buffer() = default;
@@ -23,6 +24,7 @@ template <typename T> class Buffer {
       length_(length),
       data_(static_cast<T *>(fftw_malloc(std::max<std::size_t>(length, 1) * sizeof(T))))
   {
+    if (!data_) throw std::bad_alloc();
     std::fill_n(data_.get(), length, T{});
   }
 

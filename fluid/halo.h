@@ -9,6 +9,8 @@ namespace fluid {
 /// cells, or of their periodic images. Beyond a plate there are `plate_layers` layers, filled from
 /// the boundary condition; at the upper plate there is one more, because the plate itself is a
 /// plane of lower faces.
+/// A brick without cells has ghosts, too, where there are more than `plate_layers` layers: fewer
+/// serve differences alone, which such a brick has none of.
 class Halo {
  public:
   static constexpr int plate_layers = 2;

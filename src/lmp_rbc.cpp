@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <mpi.h>
+#include <new>
 #include <string>
 
 using namespace LAMMPS_NS;
@@ -39,6 +40,9 @@ int main(int argc, char **argv)
     // all ranks have come here together, and LAMMPS has printed why
     MPI_Finalize();
     return 1;
+  } catch (std::bad_alloc &) {
+    std::fprintf(stderr, "ERROR: an MPI task has not enough memory\n");
+    MPI_Abort(MPI_COMM_WORLD, 1);
   } catch (std::exception &problem) {
     std::fprintf(stderr, "Exception: %s\n", problem.what());
     MPI_Abort(MPI_COMM_WORLD, 1);

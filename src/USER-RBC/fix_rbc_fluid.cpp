@@ -8,9 +8,11 @@
 #include "grid3d.h"
 #include "modify.h"
 #include "output.h"
+#include "support/rbc_out_of_memory.h"
 #include "update.h"
 
 #include <algorithm>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -62,16 +64,23 @@ int FixRBCFluid::setmask()
 
 /* ---------------------------------------------------------------------- */
 
+int FixRBCFluid::modify_param(int narg, char **arg)
+{
+  if (strcmp(arg[0], "warn") != 0) return 0;
+  if (narg < 2) utils::missing_cmd_args(FLERR, "fix_modify warn", error);
+  flow->scene().choose_warnings(utils::logical(FLERR, arg[1], false, lmp));
+  return 2;
+}
+
+/* ---------------------------------------------------------------------- */
+
 void FixRBCFluid::init()
 {
   if (modify->get_fix_by_style("^rbc/fluid$").size() > 1)
     error->all(FLERR, "Only one fix rbc/fluid may be defined");
+  check_unchanged();
   if (domain->box_change_size || domain->box_change_shape)
     error->all(FLERR, "Fix rbc/fluid cannot be used with a changing simulation box");
-  for (int d = 0; d < 3; ++d)
-    if (domain->boxlo[d] != box_lo[d] || domain->boxhi[d] != box_hi[d])
-      error->all(FLERR,
-                 "Fix rbc/fluid {}: the simulation box has changed since the fix was defined", id);
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix rbc/fluid cannot be used with run_style respa");
   if (!(update->dt > 0) && !(update->dt == 0 && update->nsteps == 0))
@@ -79,8 +88,47 @@ void FixRBCFluid::init()
                update->dt);
   if (flow->has_inertia() && output->restart_flag) restarts.check_size(flow->flow());
   check_drivers();
+  if (comm->nprocs > 1 && !modify->get_fix_by_style("^balance$").empty()) check_averages();
   grid_output.free();
   flow->start_run(fluid_clients(modify), id);
+}
+
+/* ----------------------------------------------------------------------
+   the grid stays as it was chosen when the fix was defined
+------------------------------------------------------------------------- */
+
+void FixRBCFluid::check_unchanged() const
+{
+  check_box();
+  if (domain->zperiodic == flow->settings().plates)
+    error->all(FLERR,
+               "Fix rbc/fluid {}: z was {} when the fix was defined and is {} now; define the fix "
+               "after change_box",
+               id, domain->zperiodic ? "fixed" : "periodic",
+               domain->zperiodic ? "periodic" : "fixed");
+  for (int d = 0; d < 3; ++d)
+    if (domain->boxlo[d] != box_lo[d] || domain->boxhi[d] != box_hi[d])
+      error->all(FLERR,
+                 "Fix rbc/fluid {}: the simulation box has changed since the fix was defined", id);
+}
+
+/* ----------------------------------------------------------------------
+   fix ave/grid ends in a segmentation fault when its grid moves
+------------------------------------------------------------------------- */
+
+void FixRBCFluid::check_averages() const
+{
+  const auto &cells = flow->settings().cells;
+  for (Fix *fix : modify->get_fix_by_style("^ave/grid$")) {
+    int n[3];
+    static_cast<Grid3d *>(fix->get_grid_by_index(0))->get_size(n[0], n[1], n[2]);
+    if (std::equal(n, n + 3, cells.begin()))
+      error->all(FLERR,
+                 "Fix rbc/fluid {}: its grid cannot be averaged by fix ave/grid {} while load "
+                 "balancing moves it: remove fix balance, or balance before fix ave/grid is "
+                 "defined",
+                 id, fix->id);
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -113,11 +161,13 @@ void FixRBCFluid::setup(int /*vflag*/)
 {
   if (flow->is_driven()) return;
   flow->set_time_at_setup();
-  if (!flow->has_inertia()) advance_alone();
-  for (bool again = flow->controls_flow_rate(); again;) {
-    again = flow->correct_flow_rate();
-    advance_alone();
-  }
+  do_or_run_out(lmp, fmt::format("Fix rbc/fluid {}", id), [this] {
+    if (!flow->has_inertia()) advance_alone();
+    for (bool again = flow->controls_flow_rate(); again;) {
+      again = flow->correct_flow_rate();
+      advance_alone();
+    }
+  });
   flow->count_from_here();
 }
 
@@ -156,8 +206,10 @@ void FixRBCFluid::advance_alone()
 
 void FixRBCFluid::reset_grid()
 {
+  const std::vector<fluid::Box> before = flow->flow().decomposition().bricks;
   grid_output.free();
   flow->build();
+  if (flow->flow().decomposition().bricks != before) check_averages();
 }
 
 /* ----------------------------------------------------------------------

@@ -22,6 +22,7 @@ class FixRBCFluid : public Fix {
  public:
   FixRBCFluid(class LAMMPS *, int, char **);
   int setmask() override;
+  int modify_param(int, char **) override;
   void init() override;
   void setup(int) override;
   void initial_integrate(int) override;
@@ -49,6 +50,8 @@ class FixRBCFluid : public Fix {
   CollectiveStop stop;
 
   void check_box() const;
+  void check_unchanged() const;
+  void check_averages() const;
   void check_drivers() const;
   void advance_alone();
   double inside_value(int);

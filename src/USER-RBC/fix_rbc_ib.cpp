@@ -13,6 +13,7 @@
 #include "group.h"
 #include "modify.h"
 #include "motion/integrators.h"
+#include "support/rbc_out_of_memory.h"
 #include "support/rbc_pair_parts.h"
 #include "update.h"
 
@@ -352,7 +353,8 @@ void FixRBCIB::setup(int /*vflag*/)
     masses->reset_counts();
   else if (flow->has_inertia() && flow->flow().steps() == 0)
     markers->interpolate();
-  steps->setup();
+  do_or_run_out(lmp, fmt::format("Fix rbc/ib {}", id), [this] { steps->setup(); });
+  flow->scene().print(*flow);
 
   std::vector<StepPart *> parts;
   for (CellMembranes *cells : all_cell_membranes(lmp)) parts.push_back(cells);
@@ -449,6 +451,9 @@ void FixRBCIB::post_run()
   if (steps->rejected() > 0)
     text += fmt::format("Steps taken again: {}, {} of them gone wrong\n", steps->rejected(),
                         steps->failed());
+  const double radius = steps->integrator().spectral_radius();
+  if (radius > 0)
+    text += fmt::format("Timestep times spectral radius: {:.4g}\n", steps->last_dt() * radius);
   if (steps->failed() > 0) text += fmt::format("The last: {}\n", steps->last_failure());
   utils::logmesg(lmp, text);
   warn();

@@ -162,6 +162,12 @@ const PairRBCJKR::TypePair &PairRBCJKR::types(int itype, int jtype) const
   return type_pairs[std::size_t(itype) * (atom->ntypes + 1) + jtype];
 }
 
+double PairRBCJKR::contact_range(int itype, int jtype) const
+{
+  const TypePair &pair = types(itype, jtype);
+  return pair.law ? pair.range() : 0;
+}
+
 /* ----------------------------------------------------------------------
    two vertices may each move by half the skin until the next reneighboring, and by as much again
    within a step

@@ -7,6 +7,7 @@ PairStyle(rbc/jkr,PairRBCJKR);
 #ifndef LMP_PAIR_RBC_JKR_H
 #define LMP_PAIR_RBC_JKR_H
 
+#include "cells/rbc_cell_contact.h"
 #include "contact/contact_laws.h"
 #include "contact/near_triangles.h"
 #include "pair.h"
@@ -19,7 +20,7 @@ PairStyle(rbc/jkr,PairRBCJKR);
 
 namespace LAMMPS_NS {
 
-class PairRBCJKR : public Pair, public StepPart {
+class PairRBCJKR : public Pair, public StepPart, public CellContact {
  public:
   PairRBCJKR(class LAMMPS *);
   ~PairRBCJKR() override;
@@ -38,6 +39,8 @@ class PairRBCJKR : public Pair, public StepPart {
   int pack_reverse_comm(int, int, double *) override;
   void unpack_reverse_comm(int, int *, double *) override;
   double memory_usage() override;
+
+  double contact_range(int, int) const override;
 
   void report_to(const std::shared_ptr<CollectiveStop> &) override;
   std::vector<Section> sections() override

@@ -6,6 +6,7 @@
 #include "pair.h"
 #include "region.h"
 #include "style_headers.h"
+#include "support/rbc_out_of_memory.h"
 #include "version.h"
 
 using namespace LAMMPS_NS;
@@ -25,7 +26,9 @@ template <class Base, class Style> Creator plain()
 template <class Base, class Style> Creator with_arguments()
 {
   Base *(*create)(LAMMPS *, int, char **) = [](LAMMPS *lmp, int narg, char **arg) -> Base * {
-    return new Style(lmp, narg, arg);
+    Base *style = nullptr;
+    do_or_run_out(lmp, "USER-RBC", [&] { style = new Style(lmp, narg, arg); });
+    return style;
   };
   Creator creator;
   creator.v2 = reinterpret_cast<lammpsplugin_factory2 *>(create);

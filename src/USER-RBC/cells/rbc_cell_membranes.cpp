@@ -5,6 +5,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix.h"
+#include "geometry/surface_thickness.h"
 #include "membrane/membrane_viscosity.h"
 #include "modify.h"
 #include "neighbor.h"
@@ -50,6 +51,20 @@ std::vector<CellMembranes *> LAMMPS_NS::all_cell_membranes(LAMMPS *lmp)
     if (auto *const owner = dynamic_cast<MembraneOwner *>(fix))
       found.push_back(&owner->membranes());
   return found;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double CellMembranes::shear_modulus() const
+{
+  const auto by_i1 = [](const auto &law) { return law(2, 1).by_i1; };
+  return 2 * std::visit(by_i1, settings_.elastic.law);
+}
+
+double CellMembranes::thickness()
+{
+  if (thickness_ < 0) thickness_ = rbc::surface_thickness(shape());
+  return thickness_;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -30,6 +30,11 @@ class CellMembranes : public StepPart, protected Pointers {
 
   const rbc::SurfaceTemplate &shape() const { return *settings_.surface; }
   const rbc::MembraneParameters &parameters() const { return settings_.elastic; }
+
+  /// Of small deformations, force per length; and the thickness of the cells at rest.
+  double shear_modulus() const;
+  double thickness();
+
   const std::string &style() const { return style_; }
   int groupbit() const { return groupbit_; }
   LocalCells &local_cells() { return cells_; }
@@ -106,6 +111,7 @@ class CellMembranes : public StepPart, protected Pointers {
   int groupbit_;
   MembraneSettings settings_;
   rbc::MembraneModel model_;
+  double thickness_ = -1;    ///< not known yet
   LocalCells cells_;
   std::shared_ptr<CollectiveStop> own_stop_, stop_;
   rbc::Stopwatch stopwatch_;

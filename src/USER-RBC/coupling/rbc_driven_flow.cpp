@@ -2,13 +2,14 @@
 
 #include "comm.h"
 #include "coupling/rbc_fluid_client.h"
+#include "coupling/rbc_ghost_layers.h"
 #include "domain.h"
 #include "error.h"
 #include "fluid/advection.h"
 #include "force.h"
 #include "grid3d.h"
 #include "math_const.h"
-#include "neighbor.h"
+#include "support/rbc_out_of_memory.h"
 #include "update.h"
 
 #include <algorithm>
@@ -25,17 +26,13 @@ static constexpr double MAX_COURANT = 1.0;
 
 static constexpr double PROBE_COURANT = 0.02;
 
-// reach of the widest kernel beyond the cell of an atom, staggering included
-
-static constexpr int KERNEL_LAYERS = 2;
-
 /* ---------------------------------------------------------------------- */
 
 DrivenFlow::DrivenFlow(LAMMPS *lmp, std::string style, const FluidSettings &settings,
                        FlowForcing forcing) :
     Pointers(lmp),
     style_(std::move(style)), settings_(settings), forcing_(std::move(forcing)),
-    inside_(lmp, "f" + style_.substr(1), settings.inside), stop_(lmp)
+    inside_(lmp, "f" + style_.substr(1), settings.inside), stop_(lmp), scene_(lmp, style_)
 {
   build();
 }
@@ -49,20 +46,13 @@ double DrivenFlow::smallest_spacing() const
 }
 
 /* ----------------------------------------------------------------------
-   Ghost layers of the fluid grid. None are needed without vertices. A vertex leaves the subdomain
-   of its rank by up to half the skin before atoms migrate, and by more within a step; besides, a
-   cell belongs to the subdomain of its centre, not of all of its volume. cells_per_step_ allows for
-   both.
+   none are needed without vertices
 ------------------------------------------------------------------------- */
 
 int DrivenFlow::layers_needed() const
 {
   if (!driven_ && !walls_) return 0;
-  const auto &cells = settings_.cells;
-  double layers = 0;
-  for (int d = 0; d < 3; ++d)
-    layers = std::max(layers, 0.5 * neighbor->skin / (domain->prd[d] / cells[d]) + cells_per_step_);
-  return static_cast<int>(std::ceil(layers)) + KERNEL_LAYERS + (sheets_ ? 1 : 0);
+  return marker_layers(lmp, style_, settings_.cells, {cells_per_step_, sheets_});
 }
 
 /* ---------------------------------------------------------------------- */
@@ -89,11 +79,17 @@ void DrivenFlow::build()
   staggered.plate_conditions = settings_.plate_conditions;
 
   ghost_layers_ = layers_needed();
-  auto flow = std::make_unique<fluid::Flow>(staggered, fluid::Decomposition(world, brick),
-                                            ghost_layers_, settings_.equations);
+  const fluid::Decomposition bricks(world, brick);
+  std::unique_ptr<fluid::Flow> flow;
+  const std::string shortage = fmt::format(
+      "{}: not enough memory for a grid of {} x {} x {} fluid cells with {} ghost layers", style_,
+      cells[0], cells[1], cells[2], ghost_layers_);
+  do_or_run_out_together(lmp, shortage, [&] {
+    flow = std::make_unique<fluid::Flow>(staggered, bricks, ghost_layers_, settings_.equations);
+  });
   if (flow_) {
     earlier_traffic_ = traffic();
-    flow->take_over(*flow_);
+    do_or_run_out(lmp, style_, [&] { flow->take_over(*flow_); });
   }
   flow_ = std::move(flow);
   changed();

@@ -5,6 +5,7 @@
 #include "coupling/rbc_flow_inside.h"
 #include "coupling/rbc_fluid_settings.h"
 #include "coupling/rbc_rigid_walls.h"
+#include "coupling/rbc_scene_table.h"
 #include "fluid/diagnostics.h"
 #include "fluid/direct_forcing.h"
 #include "support/rbc_step_part.h"
@@ -34,6 +35,8 @@ class DrivenFlow : public StepPart, protected Pointers {
   class Grid3d *grid() const { return grid_.get(); }
   bool has_inertia() const { return settings_.equations.inertia != fluid::Inertia::none; }
   double smallest_spacing() const;
+  int ghost_layers() const { return ghost_layers_; }
+  SceneTable &scene() { return scene_; }
 
   /// Collective, at the start of a run: takes in the clients' demands and walls.
   void start_run(const std::vector<FluidClient *> &clients, const std::string &fluid_id);
@@ -46,6 +49,9 @@ class DrivenFlow : public StepPart, protected Pointers {
   bool is_driven() const { return driven_; }
   RigidWalls *walls() { return walls_.get(); }
   const RigidWalls *walls() const { return walls_.get(); }
+
+  /// What drives the flow at the time of set_time...().
+  const fluid::Forcing &forcing() const { return forcing_now_; }
 
   /// Something changes the flow from step to step even without markers.
   bool varies() const { return forcing_.varies() || (walls_ && walls_->moves()); }
@@ -148,6 +154,7 @@ class DrivenFlow : public StepPart, protected Pointers {
   std::unique_ptr<fluid::Flow> flow_;
   std::unique_ptr<RigidWalls> walls_;    ///< null without walls
   CollectiveStop stop_;
+  SceneTable scene_;
 
   // demands of the clients
   bool driven_ = false, sheets_ = false;

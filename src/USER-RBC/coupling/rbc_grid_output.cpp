@@ -42,10 +42,13 @@ void *GridOutput::get(int index, fluid::Flow &flow, const std::array<double, 3> 
   return data_[index];
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   null where a subdomain holds no centre of a cell: LAMMPS cannot free an array without elements
+------------------------------------------------------------------------- */
 
 void *GridOutput::allocate(int index)
 {
+  if (box_.empty()) return nullptr;
   const auto &[lo, hi] = box_;
   if (index == PRESSURE) {
     double ***p = nullptr;

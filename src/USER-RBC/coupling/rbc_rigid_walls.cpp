@@ -7,6 +7,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <cmath>
 
 using namespace LAMMPS_NS;
 
@@ -65,6 +66,24 @@ bool RigidWalls::moves() const
 {
   return std::any_of(walls_.begin(), walls_.end(),
                      [](const WallGroup *wall) { return wall->moves(); });
+}
+
+double RigidWalls::fastest() const
+{
+  double speed = 0;
+  for (const WallGroup *wall : walls_) {
+    const auto &v = wall->velocity();
+    speed = std::max(speed, std::hypot(v[0], v[1], v[2]));
+  }
+  return speed;
+}
+
+std::string RigidWalls::names() const
+{
+  std::string list;
+  for (const WallGroup *wall : walls_)
+    list += (list.empty() ? "f" : ", f") + wall->style().substr(1);
+  return list;
 }
 
 void RigidWalls::begin_step(bool again)

@@ -19,6 +19,11 @@ class RigidWalls : public StepPart, protected Pointers {
   void connect(const std::vector<WallGroup *> &walls, bool free_mean);
 
   bool moves() const;
+
+  /// Speed of the fastest wall, and the fixes as a list for messages.
+  double fastest() const;
+  std::string names() const;
+
   void begin_step(bool again);
   void place(double fraction);
 

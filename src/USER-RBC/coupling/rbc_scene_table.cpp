@@ -1,0 +1,250 @@
+#include "coupling/rbc_scene_table.h"
+
+#include "atom.h"
+#include "cells/rbc_cell_contact.h"
+#include "cells/rbc_cell_membranes.h"
+#include "comm.h"
+#include "coupling/rbc_driven_flow.h"
+#include "domain.h"
+#include "error.h"
+#include "fix.h"
+#include "force.h"
+#include "math_const.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "pair.h"
+#include "support/rbc_pair_parts.h"
+#include "utils.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+using namespace LAMMPS_NS;
+
+// mean edges of cells in fluid spacings: longer ones let fluid through, shorter ones move as one
+
+static constexpr double SHORTEST_EDGE = 0.5, LONGEST_EDGE = 2.0;
+
+// ranges of contact in fluid spacings
+
+static constexpr double SHORTEST_RANGE = 1.0;
+
+/* ---------------------------------------------------------------------- */
+
+SceneTable::SceneTable(LAMMPS *lmp, std::string style) : Pointers(lmp), style_(std::move(style)) {}
+
+/* ---------------------------------------------------------------------- */
+
+void SceneTable::print(const DrivenFlow &flow)
+{
+  spacing_ = flow.smallest_spacing();
+  shear_rate_ = shear_rate(flow);
+  find_kinds(flow);
+  if (kinds_.empty()) return;
+  find_types();
+  find_contacts();
+  find_repelling();
+  const std::string text = table(flow) + boundaries(flow);
+  if (text == printed_) return;
+  printed_ = text;
+  if (comm->me != 0) return;
+  utils::logmesg(lmp, text);
+  if (!warns_) return;
+  warn_of_edges();
+  warn_of_contacts();
+  warn_of_plates(flow);
+}
+
+/* ----------------------------------------------------------------------
+   of the plates against each other, or of the fastest wall against the middle of the box along its
+   shortest side, whichever is larger
+------------------------------------------------------------------------- */
+
+double SceneTable::shear_rate(const DrivenFlow &flow) const
+{
+  double rate = 0;
+  if (flow.settings().plates) {
+    const auto &[lower, upper] = flow.forcing().plates;
+    rate = std::hypot(upper[0] - lower[0], upper[1] - lower[1]) / domain->prd[2];
+  }
+  const double half = 0.5 * *std::min_element(domain->prd, domain->prd + 3);
+  return flow.walls() ? std::max(rate, flow.walls()->fastest() / half) : rate;
+}
+
+/* ----------------------------------------------------------------------
+   capillary number: viscous stress over the tension that resists shear
+------------------------------------------------------------------------- */
+
+void SceneTable::find_kinds(const DrivenFlow &flow)
+{
+  kinds_.clear();
+  const double stress = flow.settings().equations.viscosity * shear_rate_ / force->ftm2v;
+  for (CellMembranes *membranes : all_cell_membranes(lmp)) {
+    const double count = static_cast<double>(membranes->local_cells().molecules().size());
+    const double radius = std::cbrt(0.75 / MathConst::MY_PI * membranes->shape().volume);
+    kinds_.push_back({membranes, count, stress * radius / membranes->shear_modulus(), {}});
+  }
+}
+
+void SceneTable::find_types()
+{
+  const int n = atom->ntypes + 1;
+  std::vector<int> has(kinds_.size() * n);
+  for (std::size_t k = 0; k < kinds_.size(); ++k)
+    for (int i = 0; i < atom->nlocal; ++i)
+      if (atom->mask[i] & kinds_[k].membranes->groupbit()) has[k * n + atom->type[i]] = 1;
+  MPI_Allreduce(MPI_IN_PLACE, has.data(), static_cast<int>(has.size()), MPI_INT, MPI_MAX, world);
+  for (std::size_t k = 0; k < kinds_.size(); ++k)
+    for (int type = 1; type < n; ++type)
+      if (has[k * n + type]) kinds_[k].types.push_back(type);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SceneTable::find_contacts()
+{
+  apart_.clear();
+  for (Kind &kind : kinds_) {
+    bool any = false;
+    for (const Kind &other : kinds_) {
+      if (&other == &kind ? kind.cells < 2 : kind.cells * other.cells < 1) continue;
+      const double range = contact_range(kind, other);
+      kind.contact = any ? std::min(kind.contact, range) : range;
+      any = true;
+      if (range > 0 || &other < &kind) continue;
+      std::string cells =
+          fmt::format("the {:.0f} cells of f{}", kind.cells, kind.membranes->style().substr(1));
+      if (&other != &kind)
+        cells +=
+            fmt::format(" and the {:.0f} of f{}", other.cells, other.membranes->style().substr(1));
+      apart_.push_back(cells);
+    }
+  }
+}
+
+double SceneTable::contact_range(const Kind &one, const Kind &other) const
+{
+  double shortest = HUGE_VAL;
+  for (int i : one.types)
+    for (int j : other.types) shortest = std::min(shortest, contact_range(i, j));
+  return std::isfinite(shortest) ? shortest : 0;
+}
+
+/* ----------------------------------------------------------------------
+   other pair styles act between vertices
+------------------------------------------------------------------------- */
+
+double SceneTable::contact_range(int itype, int jtype) const
+{
+  double range = 0;
+  for (StepPart *part : pair_step_parts(force))
+    if (auto *const contact = dynamic_cast<CellContact *>(part))
+      range = std::max(range, contact->contact_range(itype, jtype));
+  if (range > 0 || !force->pair || utils::strmatch(force->pair_style, "^(zero|rbc/)")) return range;
+  return std::sqrt(force->pair->cutsq[itype][jtype]);
+}
+
+double SceneTable::cells() const
+{
+  double sum = 0;
+  for (const Kind &kind : kinds_) sum += kind.cells;
+  return sum;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SceneTable::find_repelling()
+{
+  repelling_.clear();
+  int of_cells = 0;
+  for (const Kind &kind : kinds_) of_cells |= kind.membranes->groupbit();
+  for (Fix *fix : modify->get_fix_list()) {
+    if (!utils::strmatch(fix->style, "^wall/")) continue;
+    int any = 0;
+    for (int i = 0; i < atom->nlocal; ++i)
+      if ((atom->mask[i] & fix->groupbit) && (atom->mask[i] & of_cells)) any = 1;
+    MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, world);
+    if (any)
+      repelling_ += fmt::format("{}{} {}", repelling_.empty() ? "" : ", ", fix->style, fix->id);
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::string SceneTable::table(const DrivenFlow &flow) const
+{
+  const auto &n = flow.settings().cells;
+  std::string text = fmt::format(
+      "\nUSER-RBC scene: {} x {} x {} fluid cells, spacing {:.6g}, neighbor skin {:.3g} spacings, "
+      "{} ghost layers\n"
+      "                 number |  mean edge | longest edge | thickness | contact range | capillary "
+      "number\n"
+      "                        |             in fluid spacings\n",
+      n[0], n[1], n[2], spacing_, neighbor->skin / spacing_, flow.ghost_layers());
+  for (const Kind &kind : kinds_) {
+    const rbc::SurfaceTemplate &shape = kind.membranes->shape();
+    const std::string &style = kind.membranes->style();
+    const std::string contact =
+        kind.contact > 0 ? fmt::format("{:.3g}", kind.contact / spacing_) : "none";
+    const std::string number =
+        kind.capillary_number > 0 ? fmt::format("{:.3g}", kind.capillary_number) : "-";
+    text += fmt::format("{:<14} {:8.0f} | {:10.3g} | {:12.3g} | {:9.3g} | {:>13} | {:>16}\n",
+                        style.substr(style.rfind(' ') + 1), kind.cells, shape.mean_edge / spacing_,
+                        shape.longest_edge / spacing_, kind.membranes->thickness() / spacing_,
+                        contact, number);
+  }
+  return text;
+}
+
+std::string SceneTable::boundaries(const DrivenFlow &flow) const
+{
+  std::string text;
+  if (flow.settings().plates) text += fmt::format("Plates: shear rate {:.3g}", shear_rate_);
+  if (flow.walls()) text += (text.empty() ? "Walls: " : "; walls: ") + flow.walls()->names();
+  if (text.empty()) return text;
+  return text + (repelling_.empty() ? "; nothing repels cells from them\n"
+                                    : "; cells are repelled by " + repelling_ + "\n");
+}
+
+/* ---------------------------------------------------------------------- */
+
+void SceneTable::warn_of_edges() const
+{
+  for (const Kind &kind : kinds_) {
+    const double edge = kind.membranes->shape().mean_edge / spacing_;
+    if (kind.cells < 1 || (edge >= SHORTEST_EDGE && edge <= LONGEST_EDGE)) continue;
+    error->warning(FLERR,
+                   "{}: edges of the cells of f{} are {:.3g} fluid spacings long on average, and "
+                   "{} to {} are resolved: use a {} vertices",
+                   style_, kind.membranes->style().substr(1), edge, SHORTEST_EDGE, LONGEST_EDGE,
+                   edge > LONGEST_EDGE ? "larger dx or a template with more"
+                                       : "smaller dx or a template with fewer");
+  }
+}
+
+void SceneTable::warn_of_contacts() const
+{
+  for (const std::string &kinds : apart_)
+    error->warning(FLERR,
+                   "{}: nothing keeps {} from passing through each other; use pair_style rbc/jkr",
+                   style_, kinds);
+  for (const Kind &kind : kinds_) {
+    const double range = kind.contact / spacing_;
+    if (range == 0 || range >= SHORTEST_RANGE) continue;
+    error->warning(FLERR,
+                   "{}: cells of f{} repel each other from {:.3g} fluid spacings on; below {} the "
+                   "fluid between them is not resolved: increase R of pair_coeff, or use a "
+                   "smaller dx",
+                   style_, kind.membranes->style().substr(1), range, SHORTEST_RANGE);
+  }
+}
+
+void SceneTable::warn_of_plates(const DrivenFlow &flow) const
+{
+  if (!flow.settings().plates || cells() < 2 || !repelling_.empty()) return;
+  error->warning(FLERR,
+                 "{}: nothing repels the {:.0f} cells from the plates; use fix wall/harmonic "
+                 "with zlo EDGE and zhi EDGE",
+                 style_, cells());
+}

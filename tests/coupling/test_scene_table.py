@@ -1,0 +1,150 @@
+"""The table of a scene at the start of a run: its numbers against those of the template and the flow, and which of them
+are warned of."""
+
+import re
+import unittest
+
+import numpy as np
+
+from lammps_case import POTENTIALS, SHEAR, in_parallel, read_template, run, scene
+
+PLATES = SHEAR["fluid"].replace("dx 1.0", "dx 1.2")
+TWO = {"box": "region box block 0 24 0 12 0 12",
+       "cells": "rbc/create rbc single 6 6 6\nrbc/create rbc single 18 6 6"}
+CONTACT = "pair_style rbc/jkr {0}\npair_coeff * * repulsive 0.5 {0}"
+REPELLED = "fix plates all wall/harmonic zlo EDGE 0.02 1.0 0.5 zhi EDGE 0.02 1.0 0.5"
+
+
+def warnings(result):
+    return re.findall(r"WARNING: (Fix rbc/fluid flow: .*) \(", result.printed)
+
+
+def rows(result):
+    """The numbers of each kind of cell, by the ID of its fix."""
+    table = re.search(r"^USER-RBC scene: .*\n.*\n.*in fluid spacings\n((?:.*\|.*\n)+)", result.printed, re.MULTILINE)
+    found = {}
+    for line in table.group(1).splitlines():
+        name, *numbers = line.replace("|", " ").split()
+        found[name] = [float(word) if word not in ("none", "-") else 0 for word in numbers]
+    return found
+
+
+def edges_and_volume(name):
+    x, triangles = read_template(POTENTIALS / name)
+    corners = x[triangles]
+    lengths = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)    # each edge twice
+    volume = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6
+    return lengths.mean(), lengths.max(), volume
+
+
+class Numbers(unittest.TestCase):
+    def test_of_a_cell_in_shear(self):
+        result = run(scene(fluid=PLATES, neighbor="neighbor 1.2 bin"))
+        number, mean, longest, _, contact, capillary = rows(result)["mem"]
+        expected_mean, expected_longest, volume = edges_and_volume("rbc_162.mol")
+        self.assertEqual(number, 1)
+        self.assertEqual(contact, 0)
+        np.testing.assert_allclose([mean, longest], [expected_mean / 1.2, expected_longest / 1.2], rtol=5e-3)
+        radius = (0.75 / np.pi * volume)**(1 / 3)
+        np.testing.assert_allclose(capillary, 1.5 * 0.0012 / 12 * radius / (2 * (0.257 + 0.0257) * 0.01), rtol=5e-3)
+        # half a skin, a cell in a step, kernel, differences of sheets
+        self.assertRegex(result.printed, r"scene: 10 x 10 x 10 fluid cells, spacing 1.2, neighbor skin 1 spacings, "
+                         rf"{int(np.ceil(0.5 + 1)) + 2 + 1} ghost layers")
+        self.assertIn("Plates: shear rate 0.0001; nothing repels cells from them", result.printed)
+        self.assertEqual(warnings(result), [])
+
+    def test_in_other_units(self):
+        """In units real forces are not masses times accelerations."""
+        fluid = PLATES.replace("dx 1.2", "dx 1.2e4").replace("viscosity 1.5", "viscosity 9.033e-4") \
+            .replace("density 1.025", "density 6.17e-13").replace("0.0012", "1.2e-8")
+        result = run(scene(units="units real", box="region box block 0 12e4 0 12e4 0 12e4",
+                           molecule=f"molecule rbc {POTENTIALS}/rbc_162.mol scale 1e4",
+                           cells="rbc/create rbc single 6e4 6e4 6e4", neighbor="neighbor 1e4 bin", fluid=fluid,
+                           membrane="fix mem all rbc/membrane rbc skalak 1e-9 1 bending 1e-4",
+                           timestep="timestep 1e-3"))
+        _, _, volume = edges_and_volume("rbc_162.mol")
+        radius = 1e4 * (0.75 / np.pi * volume)**(1 / 3)
+        stress = 9.033e-4 * 1.2e-8 / 12e4 / 4.184e-4    # g/mol A/fs^2 in kcal/mol/A
+        np.testing.assert_allclose(rows(result)["mem"][5], stress * radius / 1e-9, rtol=5e-3)
+
+    def test_thickness_of_a_capsule_is_its_diameter(self):
+        result = run(scene(molecule=f"molecule rbc {POTENTIALS}/capsule_642.mol scale 3"))
+        self.assertGreater(rows(result)["mem"][3], 5.9)
+        self.assertLessEqual(rows(result)["mem"][3], 6)
+
+    def test_contact_range(self):
+        # the range of repulsive tips is their radius; of other pair styles between vertices their cutoff
+        contacts = (CONTACT.format(1.3), "pair_style lj/cut 0.9\npair_coeff * * 0 0.5")
+        results = in_parallel(lambda contact: run(scene(**TWO, before=contact, last=REPELLED)),
+                              [(contact,) for contact in contacts])
+        self.assertEqual([rows(result)["mem"][4] for result in results], [1.3, 0.9])
+        self.assertEqual(warnings(results[0]), [])
+        self.assertIn("cells are repelled by wall/harmonic plates", results[0].printed)
+
+    def test_fastest_wall(self):
+        ball = "region ball sphere 2 2 2 1.5\nrbc/surface ball type 2 spacing 0.9 mass 1\n" \
+               "group ball type 2\ngroup cells type 1"
+        result = run(scene(boundary=None, create_box="create_box 2 box angle/types 1",
+                           cells=SHEAR["cells"] + "\n" + ball,
+                           membrane=SHEAR["membrane"].replace("all", "cells"),
+                           fluid=SHEAR["fluid"].split(" wall")[0] +
+                           "\nfix ball ball rbc/wall flow velocity 3e-4 0 4e-4",
+                           ib=SHEAR["ib"].replace("all", "cells")))
+        _, _, volume = edges_and_volume("rbc_162.mol")
+        radius = (0.75 / np.pi * volume)**(1 / 3)
+        np.testing.assert_allclose(rows(result)["mem"][5], 1.5 * 5e-4 / 6 * radius / 0.005654, rtol=5e-3)
+        self.assertIn("Walls: fix rbc/wall ball; nothing repels cells from them", result.printed)
+
+    def test_timestep_times_spectral_radius(self):
+        result = run(scene(ib="fix ib all rbc/ib flow integrator rkc auto",
+                           thermo="thermo_style custom step f_ib[6] f_ib[9]", run="run 4"))
+        product = float(re.search(r"^Timestep times spectral radius: (.*)$", result.printed, re.MULTILINE).group(1))
+        np.testing.assert_allclose(product, result.thermo["f_ib[6]"][-1] * result.thermo["f_ib[9]"][-1], rtol=1e-3)
+
+
+class Warnings(unittest.TestCase):
+    def test_what_is_out_of_range(self):
+        other = SHEAR["membrane"].replace("fix mem all", "fix stiff two").replace("0.257 0.0257", "2.57 0.257")
+        mean = edges_and_volume("rbc_162.mol")[0]
+        cases = {
+            "no contact": (dict(TWO), ["nothing keeps the 2 cells of fix rbc/membrane mem from passing",
+                                       "nothing repels the 2 cells from the plates"]),
+            "not of both kinds": (
+                dict(TWO, create_box="create_box 2 box angle/types 1", before="mass 2 1\nset mol 2 type 2\n"
+                     "group one type 1\ngroup two type 2\npair_style rbc/jkr 1.2\npair_coeff 1 1 repulsive 0.5 1.2\n"
+                     "pair_coeff 2 2 repulsive 0.5 1.2\npair_coeff 1 2 none",
+                     membrane=SHEAR["membrane"].replace("all", "one") + "\n" + other, last=REPELLED),
+                ["nothing keeps the 1 cells of fix rbc/membrane mem and the 1 of fix rbc/membrane stiff from passing"]),
+            "short contact": (dict(TWO, before=CONTACT.format(0.5), last=REPELLED),
+                              ["repel each other from 0.5 fluid spacings on; below 1 "]),
+            "long edges": (dict(fluid=PLATES.replace("dx 1.2", "dx 0.4"), neighbor="neighbor 0.4 bin",
+                                timestep="timestep 20"),
+                           [f"mem are {mean / 0.4:.3g} fluid spacings long on average, and 0.5 to 2 are resolved: "
+                            "use a larger dx or a template with more vertices"]),
+            "short edges": (dict(fluid=PLATES.replace("dx 1.2", "dx 3")),
+                            [f"mem are {mean / 3:.3g} fluid spacings long on average, and 0.5 to 2 are resolved: "
+                             "use a smaller dx or a template with fewer vertices"])}
+        results = in_parallel(lambda name: run(scene(**cases[name][0])), [(name,) for name in cases])
+        for name, result in zip(cases, results):
+            with self.subTest(name):
+                found = warnings(result)
+                self.assertEqual(len(found), len(cases[name][1]), found)
+                for warning in found:
+                    self.assertTrue(any(words in warning for words in cases[name][1]), warning)
+
+    def test_are_turned_off_and_printed_once(self):
+        quiet = run(scene(**TWO, last="fix_modify flow warn no"))
+        self.assertEqual(warnings(quiet), [])
+        self.assertEqual(quiet.printed.count("USER-RBC scene"), 1)
+        again = run(scene(**TWO, run="run 0\nrun 0\nneighbor 0.8 bin\nrun 0"), ranks=2)
+        self.assertEqual(again.printed.count("USER-RBC scene"), 2)    # the skin changed
+        self.assertEqual(again.printed.count("nothing repels the 2 cells"), 2)
+
+    def test_nothing_without_cells(self):
+        bead = dict(molecule=None, cells="create_atoms 1 single 6 6 6\nmass 1 1", membrane=None, compute=None,
+                    thermo="thermo_style custom step f_flow[11]")
+        self.assertNotIn("USER-RBC scene", run(scene(**bead)).printed)
+
+
+if __name__ == "__main__":
+    unittest.main()
