@@ -22,7 +22,8 @@ class ShortRuns(unittest.TestCase):
                 created, common = lines(combination)
                 ends = []
                 for way in ("", "every 1 NULL"):
-                    result = run(scene({**created, **common, "dump": dump_line(STEPS), "run": f"run {2 * STEPS} {way}"}))
+                    more = {"dump": dump_line(STEPS), "run": f"run {2 * STEPS} {way}"}
+                    result = run(scene({**created, **common, **more}))
                     ends.append(result.dump().frames[-1])
                 np.testing.assert_array_equal(*ends)
 
@@ -59,7 +60,8 @@ class FluidAlone(unittest.TestCase):
         for ranks in (1, 2):
             created, common = lines(("euler", "walls", "elastic", "no contact", "mean x"))
             dropped = dict.fromkeys(("cells", "membrane", "ib", "groups", "contact"))
-            table = "thermo_style custom step f_flow[7] f_flow[10] f_flow[13] f_flow[19] f_vessel[1] f_vessel[4] f_vessel[7]"
+            table = ("thermo_style custom step f_flow[7] f_flow[10] f_flow[13] f_flow[19] f_vessel[1] f_vessel[4]"
+                     " f_vessel[7]")
             common = {**common, **dropped, "groups": "group wall type 2", "thermo_": "thermo 5",
                       "thermo": f"{table}\nthermo_modify format float %.17g",
                       "fluid": common["fluid"].replace("mean x 0.001", "mean x v_U")}

@@ -162,6 +162,7 @@ void TimeSteps::finish()
 void TimeSteps::choose_timestep()
 {
   if (flow_->has_inertia()) return;
+  // These velocities are those of the last step's timestep, whatever the next one will be.
   if (forces_change_ && step() == first_step_ + 1) {
     markers_.velocities_from_forces(ImmersedMarkers::Stage::start);
     compare_velocities();
