@@ -77,14 +77,15 @@ void RigidSurface::set_markers(const Flow &flow, KernelKind kernel, int count,
   for (Vector *vector :
        {&residual_, &step_, &response_, &direction_, &change_, &compliance_step_, &compliance_})
     vector->resize(numbers);
-  position_ = Eigen::Map<const Vector>(position, numbers);
+  built_ = position_ = Eigen::Map<const Vector>(position, numbers);
+  release();
   markers_ = {kernel, MarkerKind::points, count, index_.data(), position_.data()};
   times_.known = 0;
   directions_.resize(numbers, settings_.most_directions);
   responses_.resize(numbers, settings_.most_directions);
   use_.setZero(settings_.most_directions);
   shares_.setZero(settings_.most_directions);
-  forget();
+  forget_directions();
 
   preconditioner_.build(flow, kernel, count, position, body);
   if (!settings_.free_mean) return;
@@ -102,7 +103,7 @@ void RigidSurface::set_markers(const Flow &flow, KernelKind kernel, int count,
 void RigidSurface::move(const double *position)
 {
   position_ = Eigen::Map<const Vector>(position, position_.size());
-  forget();
+  forget_directions();
 }
 
 int RigidSurface::spread(Flow &flow, double time, const Real3 &others)
@@ -155,6 +156,7 @@ RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
   Real3 mean_change{0, 0, 0};
   // largest residual and slip, which differ by what markers yield; speed
   double largest[3]{0, 0, std::max(fastest(flow), largest_row(target_))};
+  int measured = outcome.solves;    // the solve whose speed it is
   while (true) {
     if (settings_.free_mean) {    // what residuals are without their uniform part
       const Eigen::Vector3d part = uniform_part(flow, residual_);
@@ -168,15 +170,28 @@ RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
     const Limit limit{settings_.tolerance * largest[2]};
     outcome.slip = largest[1] == 0 ? 0 : largest[1] / largest[2];
     outcome.converged = limit.holds(largest[0], largest[1]);
+    if (outcome.converged && measured < outcome.solves) {
+      // without good forces to start from, the flow was much faster at first
+      add_mean(flow, mean_change);
+      largest[2] = std::max(fastest(flow), largest_row(target_));
+      measured = outcome.solves;
+      continue;
+    }
     if (outcome.converged || outcome.solves >= settings_.max_solves) break;
     ++outcome.solves;
     if (!improve(flow, limit)) break;
   }
-  if (settings_.free_mean) {
-    flow.add_mean(mean_change);
-    for (int d = 0; d < 3; ++d) mean_[d] += mean_change[d];
-  }
+  add_mean(flow, mean_change);
   return outcome;
+}
+
+/// Takes the change of the mean velocity, where that is free, into the flow.
+void RigidSurface::add_mean(Flow &flow, Real3 &change)
+{
+  if (!settings_.free_mean) return;
+  flow.add_mean(change);
+  for (int d = 0; d < 3; ++d) mean_[d] += change[d];
+  change = {0, 0, 0};
 }
 
 /// One solve along the best combination of the directions known and, if that is not enough, along a
@@ -266,6 +281,7 @@ void RigidSurface::add_direction(double scale)
     use_.minCoeff(&place);
   else
     ++known_;
+  if (held_) keep_column(place);
   directions_.col(place) = scale * direction_;
   responses_.col(place) = scale * change_;
   use_[place] = 1;
@@ -275,8 +291,8 @@ std::size_t RigidSurface::bytes() const
 {
   std::size_t numbers = uniform_.size() + directions_.size() + responses_.size();
   for (const Vector *vector :
-       {&position_, &target_, &force_, &earlier_, &residual_, &step_, &response_, &direction_,
-        &change_, &use_, &shares_, &compliance_, &compliance_step_})
+       {&built_, &position_, &target_, &force_, &earlier_, &residual_, &step_, &response_,
+        &direction_, &change_, &use_, &shares_, &compliance_, &compliance_step_})
     numbers += vector->size();
   return numbers * sizeof(double) + preconditioner_.bytes();
 }

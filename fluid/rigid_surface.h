@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include <memory>
+
 namespace fluid {
 
 /// Markers of rigid no-slip surfaces that move as prescribed. The forces lambda that they exert on
@@ -18,6 +20,9 @@ namespace fluid {
 /// directions then have no net force.
 class RigidSurface {
  public:
+  RigidSurface();
+  ~RigidSurface();
+
   struct Settings {
     /// Largest slip allowed, relative to the largest speed. Markers also yield by their compliance
     /// (see MobilityPreconditioner); where that is larger than the tolerance, it bounds what is
@@ -40,6 +45,7 @@ class RigidSurface {
   void move(const double *position);
 
   int count() const { return markers_.count; }
+  KernelKind kernel() const { return markers_.kernel; }
 
   /// Rows as in set_markers: velocities wanted; forces on the fluid of the last evaluation and of
   /// that before it.
@@ -53,6 +59,13 @@ class RigidSurface {
   };
   const Times &times() const { return times_; }
   void set_times(const Times &times) { times_ = times; }
+
+  /// Times count from a later one from now on, by `span`.
+  void shift_times(double span)
+  {
+    times_.last -= span;
+    times_.earlier -= span;
+  }
 
   /// Between clear_force and accumulate_ghosts of Flow: guesses the forces of a time and spreads
   /// them. `others` is the sum of this rank's share of all other forces; it counts for a free mean
@@ -72,6 +85,26 @@ class RigidSurface {
   /// After solve: corrects forces, flow and mean velocity. The ghosts of the velocity are filled.
   Outcome enforce(Flow &flow);
 
+  /// From hold() on evaluations may be taken back: restore() forgets all that they have changed but
+  /// target and flow, release() keeps it. Not collective.
+  void hold();
+  void restore();
+  void release();
+
+  /// Forgets the directions known, as after a move.
+  void forget_directions() { known_ = 0; }
+
+  /// What evaluations need of those before them: numbers that all ranks share, and so many of each
+  /// marker, one marker after the other. The first three of a marker are its position at
+  /// set_markers. With `directions` false less is kept, and the next evaluation takes longer.
+  std::vector<double> shared_memory(bool directions) const;
+  int memory_of_marker(bool directions) const { return 3 * (3 + 2 * (directions ? known_ : 0)); }
+  std::vector<double> marker_memory(bool directions) const;
+
+  /// Takes that up again after set_markers at these positions, and move where markers have moved
+  /// since.
+  void remember(const std::vector<double> &shared, const std::vector<double> &of_markers);
+
   std::size_t bytes() const;
 
  private:
@@ -84,7 +117,7 @@ class RigidSurface {
   MarkerSet markers_;
   MobilityPreconditioner preconditioner_;
 
-  Vector position_, target_, force_, earlier_, compliance_step_, compliance_;
+  Vector built_, position_, target_, force_, earlier_, compliance_step_, compliance_;
   Vector residual_, step_, response_, direction_, change_;
   Real3 mean_{0, 0, 0};
 
@@ -96,6 +129,9 @@ class RigidSurface {
   Columns directions_, responses_;
   Vector use_, shares_;
   int known_ = 0;
+  struct Held;
+  std::unique_ptr<Held> held_;    ///< null but between hold() and restore() or release()
+
   /// Optimal step length along the preconditioned residual, found in the previous iteration.
   double length_ = 1;
 
@@ -105,7 +141,6 @@ class RigidSurface {
     bool holds(double residual, double slip) const;
   };
 
-  void forget() { known_ = 0; }
   bool improve(Flow &flow, const Limit &limit);
   void combine_known_directions(const Flow &flow);
   double find_new_direction(const Flow &flow);
@@ -113,6 +148,8 @@ class RigidSurface {
   void precondition(const Flow &flow, const Vector &velocity, Vector &force);
   Eigen::Vector3d uniform_part(const Flow &flow, const Vector &velocity) const;
   void add_direction(double scale);
+  void keep_column(int place);
+  void add_mean(Flow &flow, Real3 &change);
 };
 
 }    // namespace fluid

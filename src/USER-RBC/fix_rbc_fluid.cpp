@@ -91,6 +91,7 @@ void FixRBCFluid::init()
   if (comm->nprocs > 1 && !modify->get_fix_by_style("^balance$").empty()) check_averages();
   grid_output.free();
   flow->start_run(fluid_clients(modify), id);
+  restart_global = flow->has_inertia() || flow->controls_flow_rate() || flow->walls();
 }
 
 /* ----------------------------------------------------------------------
@@ -162,11 +163,11 @@ void FixRBCFluid::setup(int /*vflag*/)
   if (flow->is_driven()) return;
   flow->set_time_at_setup();
   do_or_run_out(lmp, fmt::format("Fix rbc/fluid {}", id), [this] {
+    flow->hold_walls();
     if (!flow->has_inertia()) advance_alone();
-    for (bool again = flow->controls_flow_rate(); again;) {
-      again = flow->correct_flow_rate();
-      advance_alone();
-    }
+    bool as_before = flow->walls() && flow->walls()->last_solves() == 1;
+    for (; flow->probe_flow_rate(); as_before = false) advance_alone();
+    flow->release_walls(as_before);
   });
   flow->count_from_here();
 }
@@ -286,11 +287,18 @@ double FixRBCFluid::memory_usage()
 
 void FixRBCFluid::write_restart(FILE *fp)
 {
-  restarts.write(fp, flow->flow(), flow->solves());
+  if (flow->has_inertia())
+    restarts.write(fp, flow->flow(), flow->solves());
+  else
+    restarts.write_memory(fp, flow->memory(FlowRestart::MOST_REMEMBERED));
 }
 
 void FixRBCFluid::restart(char *buffer)
 {
+  if (FlowRestart::is_of_steady_flow(buffer)) {
+    if (!flow->has_inertia()) flow->remember(restarts.read_memory(buffer));
+    return;
+  }
   flow->set_earlier_solves(restarts.restore(buffer, flow->flow()));
   flow->changed();
 }

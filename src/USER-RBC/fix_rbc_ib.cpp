@@ -5,6 +5,7 @@
 #include "cells/rbc_unheld_cells.h"
 #include "comm.h"
 #include "coupling/rbc_kernel_words.h"
+#include "coupling/rbc_motion_restart.h"
 #include "coupling/rbc_wall_group.h"
 #include "error.h"
 #include "fix_rbc_fluid.h"
@@ -22,10 +23,6 @@
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
-
-// numbers in restart files
-
-static constexpr int NSTATE = 2 + TimeSteps::NSTATE;
 
 static const char *const DEFAULT_INTEGRATOR = "midpoint";
 
@@ -53,7 +50,7 @@ FixRBCIB::FixRBCIB(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), cos
   build(read_arguments(narg, arg));
 
   if (stored() > 0) create_attribute = 1;
-  if (stored() > 0 || steps->adaptive()) restart_global = 1;
+  restart_global = 1;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -413,21 +410,12 @@ double FixRBCIB::compute_vector(int n)
 
 void FixRBCIB::write_restart(FILE *fp)
 {
-  if (comm->me != 0) return;
-  double state[NSTATE] = {0, 0};
-  if (masses) std::copy_n(masses->state().data(), 2, state);
-  const TimeSteps::State of_steps = steps->state();
-  std::copy(of_steps.begin(), of_steps.end(), state + 2);
-  const int size = sizeof(state);
-  fwrite(&size, sizeof(int), 1, fp);
-  fwrite(state, sizeof(double), NSTATE, fp);
+  MotionRestart(lmp, fmt::format("Fix rbc/ib {}", id), *steps, masses.get()).write(fp);
 }
 
 void FixRBCIB::restart(char *buffer)
 {
-  const auto state = reinterpret_cast<const double *>(buffer);
-  if (masses) masses->restore({state[0], state[1]});
-  steps->restart(state + 2);
+  MotionRestart(lmp, fmt::format("Fix rbc/ib {}", id), *steps, masses.get()).restore(buffer);
 }
 
 /* ----------------------------------------------------------------------

@@ -55,4 +55,23 @@ TEST(ResponseControl, FollowsADisturbance)
   }
 }
 
+/// From what it knows another one gives the same inputs.
+TEST(ResponseControl, GoesOnFromItsState)
+{
+  const auto system = [](double input, int step) { return 0.4 * input + 0.3 * std::sin(step); };
+  ResponseControl control, other;
+  control.probe(1);
+  while (control.probing()) control.adjust(system(control.input(), 0), 1);
+  for (int step = 1; step < 5; ++step) control.adjust(system(control.input(), step), 1);
+  other.restore(control.state());
+  EXPECT_FALSE(other.probing());
+  for (int step = 5; step < 10; ++step) {
+    EXPECT_EQ(other.input(), control.input());
+    EXPECT_DOUBLE_EQ(other.effect(), 0.4 * other.input());
+    const double value = system(control.input(), step);
+    control.adjust(value, 1);
+    other.adjust(value, 1);
+  }
+}
+
 }    // namespace

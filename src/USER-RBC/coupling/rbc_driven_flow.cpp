@@ -8,7 +8,6 @@
 #include "fluid/advection.h"
 #include "force.h"
 #include "grid3d.h"
-#include "math_const.h"
 #include "support/rbc_out_of_memory.h"
 #include "update.h"
 
@@ -21,10 +20,6 @@ using namespace LAMMPS_NS;
 // explicit advection: the fluid may not cross more cells than this in a step
 
 static constexpr double MAX_COURANT = 1.0;
-
-// cells per step of the flow that probes how a vessel responds
-
-static constexpr double PROBE_COURANT = 0.02;
 
 /* ---------------------------------------------------------------------- */
 
@@ -101,7 +96,7 @@ void DrivenFlow::start_run(const std::vector<FluidClient *> &clients, const std:
   inside_.forget();    // the region may be another one
   take_demands(clients, fluid_id);
   if (layers_needed() != ghost_layers_) build();
-  start_control();
+  if (controls_flow_rate()) continue_control();
 }
 
 void DrivenFlow::take_demands(const std::vector<FluidClient *> &clients,
@@ -141,7 +136,11 @@ void DrivenFlow::connect_walls(const std::vector<WallGroup *> &groups)
   if (has_inertia())
     error->all(FLERR, "{} needs {} inertia none", groups.front()->style(), inside_.style());
   free_mean_ = !settings_.plates && !settings_.prescribed_mean;
-  if (!walls_) walls_ = std::make_unique<RigidWalls>(lmp);
+  if (!walls_) {
+    walls_ = std::make_unique<RigidWalls>(lmp);
+    walls_->remember(std::move(wall_memory_));
+    wall_memory_ = {};
+  }
   walls_->connect(groups, free_mean_);
 }
 
@@ -169,22 +168,6 @@ bool DrivenFlow::holds_box_mean() const
   return !settings_.plates && settings_.equations.hold_mean && !free_mean_;
 }
 
-/* ----------------------------------------------------------------------
-   The control first probes the response with the body force that gives Poiseuille flow in a round
-   tube of the vessel's mean cross-section. The probe is so weak that even where the vessel is
-   narrow no atom crosses too many cells in a step.
-------------------------------------------------------------------------- */
-
-void DrivenFlow::start_control()
-{
-  if (!controls_flow_rate()) return;
-  const double section = inside_.volume(*flow_) / domain->prd[forcing_.held_direction()];
-  const double velocity = PROBE_COURANT * smallest_spacing() / (update->dt > 0 ? update->dt : 1);
-  const bool by_mean = holds_box_mean();
-  const double body = 8 * MathConst::MY_PI * settings_.equations.viscosity * velocity / section;
-  forcing_.start_control(by_mean, by_mean ? velocity : body);
-}
-
 /* ---------------------------------------------------------------------- */
 
 void DrivenFlow::set_forcing(const fluid::Forcing &forcing)
@@ -195,6 +178,7 @@ void DrivenFlow::set_forcing(const fluid::Forcing &forcing)
 void DrivenFlow::set_time_at_setup()
 {
   ++version_;
+  if (walls_) walls_->start_clock();
   if (has_inertia() && forcing_.is_known())
     set_forcing(forcing_.end());
   else
@@ -209,8 +193,7 @@ void DrivenFlow::set_time_now()
 
 void DrivenFlow::begin_step(bool again)
 {
-  if (controls_flow_rate() && !again)
-    forcing_.set_measured(mean_inside()[forcing_.held_direction()]);
+  if (controls_flow_rate() && !again) forcing_.set_measured(rate_inside());
   forcing_.begin_step(again);
   if (walls_) walls_->begin_step(again);
 }
@@ -225,13 +208,6 @@ void DrivenFlow::place_walls(double fraction)
 {
   fraction_ = fraction;
   if (walls_) walls_->place(fraction);
-}
-
-bool DrivenFlow::correct_flow_rate()
-{
-  forcing_.set_measured(mean_inside()[forcing_.held_direction()]);
-  set_time_now();
-  return forcing_.probing();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -300,8 +276,7 @@ void DrivenFlow::spread_walls(fluid::Forcing &uniform, CollectiveStop &stop)
     interior->add_force(*flow_, uniform.body);
     uniform.body = {0, 0, 0};
   }
-  const double end = update->atime + (update->ntimestep - update->atimestep) * update->dt;
-  walls_->spread(*flow_, end - (1 - fraction_) * update->dt, others, stop);
+  walls_->spread(*flow_, fraction_, others, stop);
   if (free_mean_) uniform.mean = walls_->mean();
 }
 

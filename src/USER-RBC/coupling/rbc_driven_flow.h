@@ -82,9 +82,22 @@ class DrivenFlow : public StepPart, protected Pointers {
   void place_walls(double fraction);
 
   /// The mean velocity inside a vessel is held. correct_flow_rate() adjusts the forcing by what the
-  /// last solve gave, and returns whether the next one is a probe of the response. Collective.
+  /// last solve gave. After the solve at the start of a run, probe_flow_rate() tells whether there
+  /// must be another one, for a probe of the response or the forcing that follows from it.
+  /// Collective.
   bool controls_flow_rate() const { return forcing_.held_direction() >= 0; }
-  bool correct_flow_rate();
+  void correct_flow_rate();
+  bool probe_flow_rate();
+
+  /// Between hold_walls() and release_walls() evaluations may be made that are not to count: with
+  /// `as_before` the walls go on from what they knew before. Collective.
+  void hold_walls();
+  void release_walls(bool as_before);
+
+  /// What the next step of a flow without inertia needs to know of those before it, of flow rate and
+  /// walls: for restart files, on rank 0, in `most` numbers at the most. Collective.
+  std::vector<double> memory(std::size_t most);
+  void remember(const std::vector<double> &memory);
 
   // An evaluation. Collective but for clear_force and spread.
 
@@ -160,7 +173,8 @@ class DrivenFlow : public StepPart, protected Pointers {
   bool driven_ = false, sheets_ = false;
   double cells_per_step_ = 1;
   int ghost_layers_ = -1;
-  bool free_mean_ = false;    ///< the mean velocity follows from the forces of walls
+  std::vector<double> wall_memory_;    ///< from a restart file, until there are walls
+  bool free_mean_ = false;             ///< the mean velocity follows from the forces of walls
 
   // time
   double fraction_ = 1;              ///< of the step
@@ -183,6 +197,8 @@ class DrivenFlow : public StepPart, protected Pointers {
   void connect_walls(const std::vector<WallGroup *> &groups);
   void warn_of_idle_forcing() const;
   void start_control();
+  void continue_control();
+  double rate_inside() { return mean_inside()[forcing_.held_direction()]; }
   bool holds_box_mean() const;
   void set_forcing(const fluid::Forcing &forcing);
   void spread_walls(fluid::Forcing &uniform, CollectiveStop &stop);

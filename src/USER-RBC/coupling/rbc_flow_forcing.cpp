@@ -9,6 +9,11 @@
 
 using namespace LAMMPS_NS;
 
+// Solves of the same forces differ by less than this part of the velocity that the input causes:
+// walls and viscous membranes are solved for within a tolerance.
+
+static constexpr double SAME = 1.0e-3;
+
 /* ---------------------------------------------------------------------- */
 
 FlowForcing::FlowForcing(LAMMPS *lmp, std::string style) : Pointers(lmp), style_(std::move(style))
@@ -25,15 +30,49 @@ void FlowForcing::hold_inside(int direction, const NumberOrVariable &velocity)
 
 void FlowForcing::start_control(bool by_mean, double probe)
 {
+  controlled_ = true;
   by_mean_ = by_mean;
-  is_measured_ = false;
+  is_measured_ = holding_ = false;
   control_.probe(probe);
 }
 
 void FlowForcing::set_measured(double inside_velocity)
 {
-  measured_ = inside_velocity;
+  if (!holding_) measured_ = inside_velocity;
+  holding_ = false;
   is_measured_ = true;
+}
+
+void FlowForcing::hold_measured(double inside_velocity)
+{
+  if (!holding_) measured_ = inside_velocity;
+  holding_ = true;
+}
+
+bool FlowForcing::agrees(double given) const
+{
+  return std::abs(given - measured_) <= SAME * std::abs(control_.effect());
+}
+
+FlowForcing::State FlowForcing::control_state(double inside_velocity) const
+{
+  const rbc::ResponseControl::State known = control_.state();
+  return {double(knows_response(by_mean_)),
+          double(held_direction_),
+          double(by_mean_),
+          known[0],
+          known[1],
+          known[2],
+          holding_ ? measured_ : inside_velocity};
+}
+
+void FlowForcing::restore_control(const State &state)
+{
+  if (state[0] == 0 || state[1] != held_direction_) return;
+  controlled_ = holding_ = true;
+  by_mean_ = state[2] != 0;
+  control_.restore({state[3], state[4], state[5]});
+  measured_ = state[6];
 }
 
 void FlowForcing::control()

@@ -28,15 +28,37 @@ class FlowForcing : protected Pointers {
   void hold_inside(int direction, const NumberOrVariable &velocity);
   int held_direction() const { return held_direction_; }
 
-  /// Call at the start of a run: the control finds anew how the mean velocity inside responds.
+  /// Call where the response is not known: the control finds how the mean velocity inside responds.
   /// `by_mean`: by the mean velocity of the box, otherwise by the body force. `probe`: the input
   /// (velocity or force density) that is tried for this; not 0.
   void start_control(bool by_mean, double probe);
   bool probing() const { return control_.probing(); }
 
-  /// Tells the control which mean velocity inside the present forcing has given; used by the next
-  /// evaluate().
+  /// Whether the control knows the response to the input that `by_mean` tells, from this run or
+  /// those before.
+  bool knows_response(bool by_mean) const
+  {
+    return controlled_ && !probing() && by_mean_ == by_mean;
+  }
+
+  /// Tells the control which mean velocity inside the present forcing has given, unless one is held
+  /// (see hold_measured); used by the next evaluate().
   void set_measured(double inside_velocity);
+
+  /// At the start of a run: holds the velocity that the forcing had given, until the next step, so
+  /// that the solve of the same forcing which comes first cannot change it. Afterwards it tells
+  /// whether that solve has `given` the same velocity, within what solves are exact to.
+  void hold_measured(double inside_velocity);
+  bool is_holding() const { return holding_; }
+  bool agrees(double given) const;
+
+  /// What is kept in restart files: 1 where the response is known, direction, 1 where the input is
+  /// the mean velocity, input, response, disturbance, and `inside_velocity` unless a velocity is
+  /// held.
+  static constexpr int STATE = 7;
+  using State = std::array<double, STATE>;
+  State control_state(double inside_velocity) const;
+  void restore_control(const State &state);
 
   bool varies() const;
   bool is_known() const { return known_; }
@@ -64,7 +86,9 @@ class FlowForcing : protected Pointers {
   NumberOrVariable held_velocity_;
   bool by_mean_ = false;
   rbc::ResponseControl control_;
+  bool controlled_ = false;     // start_control() or restore_control() was called
   bool is_measured_ = false;    // since the last change of the input
+  bool holding_ = false;        // measured_ counts from the next step on
   double measured_ = 0;
 
   void control();

@@ -17,6 +17,10 @@ double plates(const fluid::Grid &grid)
   return grid.plates ? 1 + int(lower) + 16 * int(upper) : 0;
 }
 
+/// What a flow without inertia remembers. A file of another kind of memory must have another
+/// number.
+constexpr double STEADY_MEMORY = -1;
+
 }    // namespace
 
 /* ---------------------------------------------------------------------- */
@@ -83,4 +87,33 @@ bigint FlowRestart::restore(const char *buffer, fluid::Flow &flow) const
         style_, found[0], found[1], found[2]);
   flow.restore(found + expected.size() + 1);
   return static_cast<bigint>(found[expected.size()]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool FlowRestart::is_of_steady_flow(const char *buffer)
+{
+  return *reinterpret_cast<const double *>(buffer) < 0;
+}
+
+void FlowRestart::write_memory(FILE *fp, const std::vector<double> &memory) const
+{
+  if (comm->me != 0) return;
+  const double first[2] = {STEADY_MEMORY, static_cast<double>(memory.size())};
+  const int size = static_cast<int>((2 + memory.size()) * sizeof(double));
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(first, sizeof(double), 2, fp);
+  fwrite(memory.data(), sizeof(double), memory.size(), fp);
+}
+
+std::vector<double> FlowRestart::read_memory(const char *buffer) const
+{
+  const auto found = reinterpret_cast<const double *>(buffer);
+  if (found[0] != STEADY_MEMORY)
+    error->all(FLERR,
+               "{}: the restart file is of a later version of this package, which keeps other "
+               "numbers of walls and flow rates; use that version, or another fix ID to start "
+               "without them",
+               style_);
+  return {found + 2, found + 2 + static_cast<std::size_t>(found[1])};
 }

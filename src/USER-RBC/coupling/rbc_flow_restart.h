@@ -11,8 +11,9 @@
 
 namespace LAMMPS_NS {
 
-/// A flow with inertia in restart files: numbers that tell what it belongs to, solves so far, then
-/// its history.
+/// A flow in restart files. With inertia: numbers that tell what it belongs to, solves so far, then
+/// its history. Without: a number below zero that tells the kind of what follows, how many numbers
+/// that is, and what the flow remembers.
 class FlowRestart : protected Pointers {
  public:
   FlowRestart(LAMMPS *lmp, std::string style) : Pointers(lmp), style_(std::move(style)) {}
@@ -25,6 +26,12 @@ class FlowRestart : protected Pointers {
 
   /// Returns the solves so far.
   bigint restore(const char *buffer, fluid::Flow &flow) const;
+
+  /// Without inertia.
+  static bool is_of_steady_flow(const char *buffer);
+  static constexpr std::size_t MOST_REMEMBERED = MAXSMALLINT / sizeof(double) - 2;
+  void write_memory(FILE *fp, const std::vector<double> &memory) const;
+  std::vector<double> read_memory(const char *buffer) const;
 
  private:
   std::string style_;

@@ -37,6 +37,9 @@ class ImplicitViscosity : protected Pointers {
 
   bool has_viscous_membranes() const { return !viscous_.empty(); }
 
+  /// What it leaves undone of the velocities, relative to them; 0 without viscosity.
+  double tolerance() const { return viscous_.empty() ? 0 : tolerance_; }
+
   /// Collective: velocities from the forces and velocities that the atoms hold. An evaluation of
   /// the flow in each round.
   void solve(EvaluationStage stage);

@@ -23,6 +23,7 @@ void RigidWalls::connect(const std::vector<WallGroup *> &walls, bool free_mean)
   }
   fluid::RigidSurface::Settings settings = surface_.settings();
   if (settings.free_mean != free_mean) surface_is_set_ = false;
+  if (surface_.kernel() != first()->settings().kernel) surface_is_set_ = false;
   settings.tolerance = first()->settings().tolerance;
   settings.max_solves = first()->settings().max_solves;
   settings.free_mean = free_mean;
@@ -86,8 +87,17 @@ std::string RigidWalls::names() const
   return list;
 }
 
+void RigidWalls::start_clock()
+{
+  surface_.shift_times(span_);
+  span_ = 0;
+  begun_ = false;
+}
+
 void RigidWalls::begin_step(bool again)
 {
+  if (!again) start_clock();
+  begun_ = true;
   for (WallGroup *wall : walls_) wall->begin_step(again);
 }
 
@@ -168,11 +178,21 @@ bool RigidWalls::take_tags()
 
 void RigidWalls::set_markers(const fluid::Flow &flow)
 {
+  if (set_remembered(flow)) return;
   const auto times = surface_.times();
   surface_.set_markers(flow, first()->settings().kernel, static_cast<int>(markers_.size()),
                        position_.data(), body_.data());
   if (surface_is_set_) surface_.set_times(times);
   surface_is_set_ = true;
+  take_forces();
+}
+
+/* ----------------------------------------------------------------------
+   of the atoms, to the surface
+------------------------------------------------------------------------- */
+
+void RigidWalls::take_forces()
+{
   for (std::size_t n = 0; n < markers_.size(); ++n) {
     const double *const forces = walls_[markers_[n].wall]->forces(markers_[n].atom);
     for (int d = 0; d < 3; ++d) {
@@ -184,14 +204,15 @@ void RigidWalls::set_markers(const fluid::Flow &flow)
 
 /* ---------------------------------------------------------------------- */
 
-void RigidWalls::spread(fluid::Flow &flow, double time, const std::array<double, 3> &others,
+void RigidWalls::spread(fluid::Flow &flow, double fraction, const std::array<double, 3> &others,
                         CollectiveStop &stop)
 {
   stopwatch_.start();
   find_markers(flow);
   for (std::size_t n = 0; n < markers_.size(); ++n)
     std::copy_n(walls_[markers_[n].wall]->velocity().data(), 3, surface_.target() + 3 * n);
-  const int outside = surface_.spread(flow, time, others);
+  if (begun_) span_ = update->dt;
+  const int outside = surface_.spread(flow, fraction * span_, others);
   stopwatch_.stop();
   if (outside < 0) return;
   const Marker &lost = markers_[outside];
@@ -211,16 +232,25 @@ void RigidWalls::enforce(fluid::Flow &flow)
   ++evaluations_;
   solves_ += outcome_.solves;
   if (!outcome_.converged) ++unconverged_;
+  give_forces();
+  for (const Marker &marker : markers_)
+    std::copy_n(walls_[marker.wall]->velocity().data(), 3, atom->v[marker.atom]);
+  stopwatch_.stop();
+}
+
+/* ----------------------------------------------------------------------
+   of the surface, to the atoms
+------------------------------------------------------------------------- */
+
+void RigidWalls::give_forces()
+{
   for (std::size_t n = 0; n < markers_.size(); ++n) {
-    const WallGroup &wall = *walls_[markers_[n].wall];
-    double *const forces = wall.forces(markers_[n].atom);
+    double *const forces = walls_[markers_[n].wall]->forces(markers_[n].atom);
     for (int d = 0; d < 3; ++d) {
       forces[d] = -surface_.force()[3 * n + d] / force->ftm2v;
       forces[3 + d] = -surface_.earlier_force()[3 * n + d] / force->ftm2v;
     }
-    std::copy_n(wall.velocity().data(), 3, atom->v[markers_[n].atom]);
   }
-  stopwatch_.stop();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -249,5 +279,5 @@ std::size_t RigidWalls::bytes() const
 {
   return surface_.bytes() + markers_.capacity() * sizeof(Marker) +
          tags_.capacity() * sizeof(tagint) + body_.capacity() * sizeof(int) +
-         position_.capacity() * sizeof(double);
+         (position_.capacity() + remembered_.capacity()) * sizeof(double);
 }

@@ -24,14 +24,17 @@ class RigidWalls : public StepPart, protected Pointers {
   double fastest() const;
   std::string names() const;
 
+  /// At the start of a run: the evaluations that follow are for the time at which the next step
+  /// begins.
+  void start_clock();
   void begin_step(bool again);
   void place(double fraction);
 
   /// Collective; call between clear_force and accumulate_ghosts of a flow. Spreads the forces of
-  /// the walls as extrapolated to `time` (elapsed time of the simulation). `others`: sum of all
+  /// the walls as extrapolated to `fraction` of the step. `others`: sum of all
   /// other forces of this rank. Reports to `stop` if an atom left this rank's part of the grid.
   /// Where the mean velocity is free, solve with mean() afterwards.
-  void spread(fluid::Flow &flow, double time, const std::array<double, 3> &others,
+  void spread(fluid::Flow &flow, double fraction, const std::array<double, 3> &others,
               CollectiveStop &stop);
 
   /// Collective, once the flow is solved: corrects the forces, and the mean velocity where it is
@@ -40,6 +43,21 @@ class RigidWalls : public StepPart, protected Pointers {
 
   /// The mean velocity that balances forces, where it is free.
   const std::array<double, 3> &mean() const { return surface_.mean(); }
+
+  /// From hold() on evaluations may be taken back: restore() forgets what they have changed of the
+  /// walls, release() keeps it. hold() is collective.
+  void hold(const fluid::Flow &flow);
+  void restore();
+  void release() { surface_.release(); }
+
+  /// What evaluations need of those before them, on rank 0, empty elsewhere; for restart files.
+  /// Where it does not fit into `most` numbers these walls forget it, too, so that both runs go on
+  /// as one. Collective.
+  std::vector<double> memory(const fluid::Flow &flow, std::size_t most);
+
+  /// Takes that up with the next evaluation, if the walls have the same atoms and the flow is the
+  /// same. On all ranks alike, before it.
+  void remember(std::vector<double> memory) { remembered_ = std::move(memory); }
 
   const WallGroup *first() const { return walls_.front(); }
 
@@ -65,6 +83,13 @@ class RigidWalls : public StepPart, protected Pointers {
   rbc::Stopwatch stopwatch_;
   bool surface_is_set_ = false;    ///< surface_ holds the forces of these atoms
 
+  // Times of the surface count from the start of the step or, before the first step of a run, from
+  // the end of the last one.
+  bool begun_ = false;    ///< a step of this run
+  double span_ = 0;       ///< of the step, after an evaluation in it
+
+  std::vector<double> remembered_;    ///< from a restart file, until the next evaluation
+
   struct Marker {
     tagint tag;
     int atom, wall;
@@ -86,6 +111,10 @@ class RigidWalls : public StepPart, protected Pointers {
   Change find_change();
   bool take_tags();
   void set_markers(const fluid::Flow &flow);
+  bool set_remembered(const fluid::Flow &flow);
+  void forget();
+  void take_forces();
+  void give_forces();
 };
 
 }    // namespace LAMMPS_NS

@@ -19,6 +19,10 @@ using rbc::Numbers;
 
 static constexpr double SMALLEST_PART = 1.0e-6;
 
+// velocities that differ by less of them are the same
+
+static constexpr double SAME = 1.0e-6;
+
 /* ---------------------------------------------------------------------- */
 
 TimeSteps::TimeSteps(LAMMPS *lmp, std::string style, ImmersedMarkers &markers,
@@ -51,13 +55,11 @@ void TimeSteps::start_run(DrivenFlow *flow, bool forces_change)
   flow_ = flow;
   forces_change_ = forces_change;
   first_step_ = step();
-  integrator_->start_run(flow->smallest_spacing());
   rejected_ = failed_ = 0;
   if (!control_.active()) return;
   const bool changed = update->dt != last_dt_ && !restarted_;    // by the user
   if (next_dt_ == 0 || changed) next_dt_ = update->dt;
   next_dt_ = std::min(next_dt_, control_.largest);
-  restarted_ = false;
 }
 
 void TimeSteps::atoms_migrated()
@@ -77,12 +79,49 @@ void TimeSteps::setup()
     markers_.check_velocities(Stage::start);
     return;
   }
+  start_velocities();
   markers_.velocities_from_forces(Stage::start);
-  for (bool again = flow_->controls_flow_rate(); again;) {
-    again = flow_->correct_flow_rate();
+  while (flow_->probe_flow_rate()) {
     markers_.recompute_forces();
     markers_.velocities_from_forces(Stage::start);
   }
+  if (!forces_change_) compare_velocities();
+  velocity_step_ = step();
+}
+
+/* ----------------------------------------------------------------------
+   An evaluation of the same forces differs from the one that ended the last step, by round-off or,
+   with walls and viscosity, within a tolerance. Where it does not differ by more the old velocities
+   stay, and all that the evaluation has changed is as before: a run in pieces, or continued from a
+   restart file, is that of one piece. With adapt the timestep is that of the last step until the
+   next one chooses its own.
+------------------------------------------------------------------------- */
+
+void TimeSteps::start_velocities()
+{
+  restarted_ = false;
+  if (control_.active() && last_dt_ > 0) set_timestep(last_dt_, step());
+  doubts_velocities_ = velocity_step_ == step();
+  if (!doubts_velocities_) return;
+  markers_.load(atom->v, V_);
+  flow_->hold_walls();
+}
+
+void TimeSteps::compare_velocities()
+{
+  const bool same = doubts_velocities_ && are_velocities_same();
+  doubts_velocities_ = false;
+  if (same) markers_.store(V_, atom->v);
+  flow_->release_walls(same);
+  integrator_->start_run(flow_->smallest_spacing(), same);
+}
+
+bool TimeSteps::are_velocities_same()
+{
+  markers_.load(atom->v, V_new_);
+  for (std::size_t i = 0; i < V_.size(); ++i) V_new_[i] -= V_[i];
+  const double tolerance = std::max(SAME, 2 * markers_.viscosity().tolerance());
+  return root_mean_square(markers_, V_new_) <= tolerance * root_mean_square(markers_, V_);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -114,6 +153,7 @@ void TimeSteps::finish()
     else
       markers_.velocities_from_forces(ImmersedMarkers::Stage::start);
   }
+  velocity_step_ = step();
   markers_.stop()->check();
 }
 
@@ -121,12 +161,12 @@ void TimeSteps::finish()
 
 void TimeSteps::choose_timestep()
 {
-  // The velocities below depend on the timestep, which therefore is set before them; then it is cut
-  // to what the fastest marker allows.
-  if (control_.active()) set_timestep(next_dt_, step() - 1);
   if (flow_->has_inertia()) return;
-  if (forces_change_ && step() == first_step_ + 1)
+  // These velocities are those of the last step's timestep, whatever the next one will be.
+  if (forces_change_ && step() == first_step_ + 1) {
     markers_.velocities_from_forces(ImmersedMarkers::Stage::start);
+    compare_velocities();
+  }
   if (control_.active()) set_timestep(std::min(next_dt_, markers_.longest_step()), step() - 1);
 }
 
@@ -234,9 +274,9 @@ void TimeSteps::set_timestep(double dt, bigint from_step)
 
 TimeSteps::State TimeSteps::state() const
 {
-  State state{last_dt_, next_dt_};
+  State state{last_dt_, next_dt_, static_cast<double>(velocity_step_)};
   const rbc::Integrator::State kept = integrator_->state();
-  std::copy(kept.begin(), kept.end(), state.begin() + 2);
+  std::copy(kept.begin(), kept.end(), state.begin() + 3);
   return state;
 }
 
@@ -244,10 +284,18 @@ void TimeSteps::restart(const double *state)
 {
   last_dt_ = state[0];
   next_dt_ = state[1];
+  velocity_step_ = static_cast<bigint>(state[2]);
   rbc::Integrator::State kept;
-  std::copy_n(state + 2, kept.size(), kept.begin());
+  std::copy_n(state + 3, kept.size(), kept.begin());
   integrator_->restore(kept);
   restarted_ = true;
+}
+
+void TimeSteps::restart_from_before(const double *state)
+{
+  State all{state[0], state[1], -1};
+  std::copy_n(state + 2, 3, all.begin() + 3);
+  restart(all.data());
 }
 
 std::size_t TimeSteps::bytes() const

@@ -51,11 +51,15 @@ class TimeSteps : protected Pointers {
   const std::string &last_failure() const { return last_failure_; }
   double last_dt() const { return last_dt_; }
 
-  /// Last timestep, next timestep, what the integrator keeps.
-  static constexpr int NSTATE = 2 + rbc::Integrator::STATE;
+  /// Last timestep, next timestep, step of the last velocities, what the integrator keeps.
+  static constexpr int NSTATE = 3 + rbc::Integrator::STATE;
   using State = std::array<double, NSTATE>;
   State state() const;
   void restart(const double *state);
+
+  /// The numbers that files had before they held all: last timestep, next timestep, timesteps
+  /// before.
+  void restart_from_before(const double *state);
 
   std::size_t bytes() const;
 
@@ -67,13 +71,15 @@ class TimeSteps : protected Pointers {
   AtomStore store_;
   rbc::StepControl control_;
   bigint first_step_ = 0;
+  bigint velocity_step_ = -1;         ///< at whose end the atoms' velocities were found; -1: none
+  bool doubts_velocities_ = false;    ///< they are still to be compared with those of the forces
   bool forces_change_ = false;
 
   // Of the present step, three numbers for each marker here: positions and velocities at its start
   // and at its end, and work space.
   rbc::Numbers X_, V_, X_new_, V_new_, scratch_;
   double last_dt_ = 0, next_dt_ = 0, local_error_ = 0;
-  bool restarted_ = false;
+  bool restarted_ = false;    ///< and no run has begun since
   /// measure_error() has computed the velocities at the end of the step: finish() need not.
   bool velocities_known_ = false;
   bigint rejected_ = 0, failed_ = 0;
@@ -82,6 +88,9 @@ class TimeSteps : protected Pointers {
   rbc::StepStart start() const { return {X_, V_, update_dt(), last_dt_, step()}; }
   double update_dt() const;
   bigint step() const;
+  void start_velocities();
+  void compare_velocities();
+  bool are_velocities_same();
   void choose_timestep();
   void take_step();
   bool step_is_accepted();

@@ -35,7 +35,7 @@ class PointStore {
 class Integrator {
  public:
   /// What goes into restart files, besides the vectors of the points.
-  static constexpr int STATE = 3;
+  static constexpr int STATE = 9;
   using State = std::array<double, STATE>;
 
   virtual ~Integrator() = default;
@@ -57,8 +57,10 @@ class Integrator {
   /// Whether it uses PointStore::known_steps().
   virtual bool counts_steps() const { return false; }
 
-  /// At the start of a run. `length` is one over which velocities vary, for finite differences.
-  virtual void start_run(double /*length*/) {}
+  /// At the start of a run, once velocities are known. `length` is one over which velocities vary,
+  /// for finite differences. `continues`: the points are where the last step left them and move
+  /// with the velocities that it left, so that what was known of them is likely to hold.
+  virtual void start_run(double /*length*/, bool /*continues*/) {}
 
   /// Call after points migrated between ranks and at the start of a run. `points`: number of points
   /// that this rank holds now. `store` has moved with them.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 namespace rbc {
 
 /// Keeps a quantity at a wanted value by an input to which it responds linearly. What else it
@@ -7,6 +9,9 @@ namespace rbc {
 class ResponseControl {
  public:
   double input() const { return input_; }
+
+  /// What the input adds to the quantity.
+  double effect() const { return response_ * input_; }
 
   /// Finds the disturbance without input, then the response to this one, which must not be 0.
   void probe(double input)
@@ -16,6 +21,17 @@ class ResponseControl {
     stage_ = Stage::WITHOUT_INPUT;
   }
   bool probing() const { return stage_ != Stage::KNOWN; }
+
+  /// What it knows once it does not probe: input, response and disturbance.
+  using State = std::array<double, 3>;
+  State state() const { return {input_, response_, disturbance_}; }
+  void restore(const State &state)
+  {
+    stage_ = Stage::KNOWN;
+    input_ = state[0];
+    response_ = state[1];
+    disturbance_ = state[2];
+  }
 
   /// Takes the value `measured` that the present input() has given and chooses the input that
   /// should give `wanted`; the first two calls of a probe learn disturbance and response.

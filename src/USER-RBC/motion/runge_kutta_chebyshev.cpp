@@ -11,7 +11,7 @@ namespace {
 constexpr double LARGEST_GROWTH = 1.2;    // third order: of a timestep over the one before
 constexpr int STARTING_PARTS = 8;         // third order: parts of a step without a past
 
-static_assert(DisplacementHistory::LONGEST == Integrator::STATE);
+static_assert(DisplacementHistory::LONGEST + StabilityEstimate::STATE == Integrator::STATE);
 
 std::string short_number(double value)
 {
@@ -115,6 +115,23 @@ void RungeKuttaChebyshev::reject(const Motion &motion, PointStore &store, const 
                                  const Numbers &x)
 {
   if (automatic_) stability_.suspect(motion, store, mode_vector(), start, x);
+}
+
+Integrator::State RungeKuttaChebyshev::state() const
+{
+  State state{};
+  const auto estimate = stability_.state();
+  std::copy(estimate.begin(), estimate.end(),
+            std::copy(past_dt_.begin(), past_dt_.end(), state.begin()));
+  return state;
+}
+
+void RungeKuttaChebyshev::restore(const State &state)
+{
+  std::copy_n(state.begin(), past_dt_.size(), past_dt_.begin());
+  StabilityEstimate::State estimate;
+  std::copy_n(state.begin() + past_dt_.size(), estimate.size(), estimate.begin());
+  stability_.restore(estimate);
 }
 
 std::size_t RungeKuttaChebyshev::bytes() const

@@ -17,7 +17,10 @@ class RungeKuttaChebyshev : public Integrator {
   double largest_growth() const override;
   int kept_vectors() const override { return past_steps() + (automatic_ ? 1 : 0); }
   bool counts_steps() const override { return past_steps() > 0; }
-  void start_run(double length) override { stability_.start_run(length); }
+  void start_run(double length, bool continues) override
+  {
+    stability_.start_run(length, continues);
+  }
   void points_migrated(const Motion &motion, std::size_t points, const PointStore &store) override;
   void step(Motion &motion, PointStore &store, const StepStart &start, Numbers &x) override;
   void accept(PointStore &store, const StepStart &start, const Numbers &x) override;
@@ -25,8 +28,8 @@ class RungeKuttaChebyshev : public Integrator {
               const Numbers &x) override;
   int stages() const override { return chebyshev_.stages(); }
   double spectral_radius() const override { return stability_.last(); }
-  State state() const override { return past_dt_; }
-  void restore(const State &state) override { past_dt_ = state; }
+  State state() const override;
+  void restore(const State &state) override;
   std::size_t bytes() const override;
 
  private:
@@ -36,7 +39,7 @@ class RungeKuttaChebyshev : public Integrator {
 
   // third order
   DisplacementHistory past_;
-  State past_dt_{};
+  std::array<double, DisplacementHistory::LONGEST> past_dt_{};
   int known_steps_ = 0;    ///< of all points
 
   Numbers scratch_, velocity_;

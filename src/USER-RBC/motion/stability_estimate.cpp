@@ -40,9 +40,11 @@ void guess(const Motion &motion, Numbers &mode)
 
 }    // namespace
 
-void StabilityEstimate::start_run(double length)
+void StabilityEstimate::start_run(double length, bool continues)
 {
   displacement_ = DISPLACEMENT * length;
+  doubted_ = continues && interval_ > 0;
+  if (doubted_) return;
   radius_step_ = estimated_step_ = -1;
   interval_ = SHORTEST_INTERVAL;
   raw_radius_ = 0;
@@ -52,9 +54,26 @@ void StabilityEstimate::start_run(double length)
 double StabilityEstimate::radius(Motion &motion, PointStore &store, int mode_vector,
                                  const StepStart &start)
 {
-  if (radius_step_ < 0 || start.step >= radius_step_ + interval_)
-    estimate(motion, store, mode_vector, start);
+  if (is_due(motion, store, mode_vector, start)) estimate(motion, store, mode_vector, start);
   return radius_;
+}
+
+bool StabilityEstimate::is_due(Motion &motion, const PointStore &store, int mode_vector,
+                               const StepStart &start)
+{
+  const bool doubted = std::exchange(doubted_, false);
+  if (radius_step_ < 0 || start.step >= radius_step_ + interval_) return true;
+  return doubted && is_exceeded(motion, store, mode_vector, start);
+}
+
+/// Leaves everything as it is, so that a run in pieces is that of one piece.
+bool StabilityEstimate::is_exceeded(Motion &motion, const PointStore &store, int mode_vector,
+                                    const StepStart &start)
+{
+  store.load(mode_vector, mode_);
+  if (!(dot(motion, mode_, mode_) > 0)) return true;
+  spectrum_.min_iterations = 1;
+  return !(measure(motion, start) <= radius_);
 }
 
 void StabilityEstimate::estimate(Motion &motion, PointStore &store, int mode_vector,
@@ -69,20 +88,22 @@ void StabilityEstimate::estimate(Motion &motion, PointStore &store, int mode_vec
   radius_step_ = start.step;
   if (root_mean_square(motion, mode_) == 0) return;    // there are no points
 
-  // start.v is no reference for the differences: it may belong to forcing of another time, and it
-  // contains viscous forces, which are solved for less exactly than differences need. So the
-  // velocities at start.x are evaluated once more without these forces. Leaving them out is safe:
-  // they can only slow relaxation.
-  {
-    const Estimating estimating(motion);
-    velocity_ = start.v;
-    motion.velocity(start.x, 0, velocity_);
-    const double last = std::exchange(
-        raw_radius_, spectrum_.estimate(motion, start.x, velocity_, displacement_, mode_));
-    foresee(last, start.step);
-  }
+  const double last = std::exchange(raw_radius_, measure(motion, start));
+  foresee(last, start.step);
   if (!std::isfinite(radius_)) throw StepFailure("the spectral radius is not a number");
   store.store(mode_vector, mode_);
+}
+
+/// Starts from the guess mode_, which becomes the mode. start.v is no reference for the differences:
+/// it may belong to forcing of another time, and it contains viscous forces, which are solved for
+/// less exactly than differences need. So the velocities at start.x are evaluated once more without
+/// these forces. Leaving them out is safe: they can only slow relaxation.
+double StabilityEstimate::measure(Motion &motion, const StepStart &start)
+{
+  const Estimating estimating(motion);
+  velocity_ = start.v;
+  motion.velocity(start.x, 0, velocity_);
+  return spectrum_.estimate(motion, start.x, velocity_, displacement_, mode_);
 }
 
 void StabilityEstimate::foresee(double last, std::int64_t step)
@@ -96,6 +117,26 @@ void StabilityEstimate::foresee(double last, std::int64_t step)
   else if (change < STEADY_CHANGE)
     interval_ = std::min(2 * interval_, LONGEST_INTERVAL);
   radius_ *= std::clamp(ratio, 1.0, LARGEST_GROWTH);
+}
+
+StabilityEstimate::State StabilityEstimate::state() const
+{
+  return {radius_,
+          raw_radius_,
+          double(suspected_),
+          double(radius_step_),
+          double(estimated_step_),
+          double(interval_)};
+}
+
+void StabilityEstimate::restore(const State &state)
+{
+  radius_ = state[0];
+  raw_radius_ = state[1];
+  suspected_ = state[2] != 0;
+  radius_step_ = static_cast<std::int64_t>(state[3]);
+  estimated_step_ = static_cast<std::int64_t>(state[4]);
+  interval_ = static_cast<int>(state[5]);
 }
 
 void StabilityEstimate::suspect(const Motion &motion, PointStore &store, int mode_vector,

@@ -11,8 +11,10 @@ namespace rbc {
 /// fastest mode found is kept in a vector of the points; the next estimate starts from it.
 class StabilityEstimate {
  public:
-  /// At the start of a run; points are displaced by a small part of `length`.
-  void start_run(double length);
+  /// At the start of a run; points are displaced by a small part of `length`. Where a run
+  /// `continues` another the estimate in use stays, unless the first step finds a larger radius:
+  /// what acts on the points may have become stiffer in between.
+  void start_run(double length, bool continues);
 
   /// The radius for a step; estimates it where it is due. Throws StepFailure if it is not a number.
   double radius(Motion &motion, PointStore &store, int mode_vector, const StepStart &start);
@@ -24,6 +26,12 @@ class StabilityEstimate {
 
   double last() const { return radius_; }
 
+  /// In restart files, with the vector of the mode.
+  static constexpr int STATE = 6;
+  using State = std::array<double, STATE>;
+  State state() const;
+  void restore(const State &state);
+
   std::size_t bytes() const { return (mode_.capacity() + velocity_.capacity()) * sizeof(double); }
 
  private:
@@ -34,8 +42,13 @@ class StabilityEstimate {
   bool suspected_ = false;                ///< the rejected step's growth was added to the mode
   std::int64_t radius_step_ = -1;         ///< of the estimate in use; -1 where a new one is due
   std::int64_t estimated_step_ = -1;      ///< of the last estimate
-  int interval_ = 0;                      ///< steps between estimates
+  int interval_ = 0;                      ///< steps between estimates; 0 before the first run
+  bool doubted_ = false;                  ///< the estimate in use is that of an earlier run
 
+  bool is_due(Motion &motion, const PointStore &store, int mode_vector, const StepStart &start);
+  bool is_exceeded(Motion &motion, const PointStore &store, int mode_vector,
+                   const StepStart &start);
+  double measure(Motion &motion, const StepStart &start);
   void estimate(Motion &motion, PointStore &store, int mode_vector, const StepStart &start);
   void foresee(double last, std::int64_t step);
 };

@@ -1,0 +1,100 @@
+// The part of DrivenFlow that holds the mean velocity inside a vessel, and keeps what a flow without
+// inertia remembers.
+
+#include "coupling/rbc_driven_flow.h"
+#include "domain.h"
+#include "math_const.h"
+#include "update.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+
+// cells per step of the flow that probes how a vessel responds
+
+static constexpr double PROBE_COURANT = 0.02;
+
+/* ----------------------------------------------------------------------
+   the first input is the body force that gives Poiseuille flow in a round tube of the vessel's mean
+   cross-section, slow enough for atoms in throats
+------------------------------------------------------------------------- */
+
+void DrivenFlow::start_control()
+{
+  const double section = inside_.volume(*flow_) / domain->prd[forcing_.held_direction()];
+  const double velocity = PROBE_COURANT * smallest_spacing() / (update->dt > 0 ? update->dt : 1);
+  const bool by_mean = holds_box_mean();
+  const double body = 8 * MathConst::MY_PI * settings_.equations.viscosity * velocity / section;
+  forcing_.start_control(by_mean, by_mean ? velocity : body);
+}
+
+/* ----------------------------------------------------------------------
+   what is known goes from run to run, or comes from a restart file
+------------------------------------------------------------------------- */
+
+void DrivenFlow::continue_control()
+{
+  if (forcing_.knows_response(holds_box_mean()))
+    forcing_.hold_measured(rate_inside());
+  else
+    start_control();
+}
+
+/* ---------------------------------------------------------------------- */
+
+void DrivenFlow::correct_flow_rate()
+{
+  forcing_.set_measured(rate_inside());
+  set_time_now();
+}
+
+bool DrivenFlow::probe_flow_rate()
+{
+  if (!controls_flow_rate()) return false;
+  if (forcing_.is_holding()) {
+    if (forcing_.agrees(rate_inside())) return false;
+    start_control();    // walls, cells or forcing are others
+    set_time_now();
+    return true;
+  }
+  if (!forcing_.probing()) return false;
+  correct_flow_rate();
+  return true;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void DrivenFlow::hold_walls()
+{
+  if (walls_) walls_->hold(*flow_);
+}
+
+void DrivenFlow::release_walls(bool as_before)
+{
+  if (!walls_) return;
+  if (as_before)
+    walls_->restore();
+  else
+    walls_->release();
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::vector<double> DrivenFlow::memory(std::size_t most)
+{
+  FlowForcing::State control{};
+  if (controls_flow_rate()) control = forcing_.control_state(rate_inside());
+  std::vector<double> memory(control.begin(), control.end());
+  if (!walls_) return memory;
+  const std::vector<double> of_walls = walls_->memory(*flow_, most - memory.size());
+  memory.insert(memory.end(), of_walls.begin(), of_walls.end());
+  return memory;
+}
+
+void DrivenFlow::remember(const std::vector<double> &memory)
+{
+  FlowForcing::State control;
+  std::copy_n(memory.begin(), control.size(), control.begin());
+  forcing_.restore_control(control);
+  wall_memory_.assign(memory.begin() + control.size(), memory.end());
+}
