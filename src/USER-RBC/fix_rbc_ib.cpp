@@ -13,7 +13,7 @@
 #include "force.h"
 #include "group.h"
 #include "modify.h"
-#include "motion/integrators.h"
+#include "neighbor.h"
 #include "support/rbc_out_of_memory.h"
 #include "support/rbc_pair_parts.h"
 #include "update.h"
@@ -24,7 +24,16 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
-static const char *const DEFAULT_INTEGRATOR = "midpoint";
+// of a fluid without inertia, and of one with inertia, in which stages are of no use
+
+static const char *const DEFAULT_INTEGRATOR = "rkc", *const DEFAULT_WITH_INERTIA = "midpoint";
+
+static const rbc::IntegratorKind *integrator_kind(const std::string &word)
+{
+  for (const rbc::IntegratorKind &kind : rbc::integrator_kinds)
+    if (word == kind.word) return &kind;
+  return nullptr;
+}
 
 /// What the arguments say, as far as the fix itself need not remember it.
 struct FixRBCIB::Settings {
@@ -41,7 +50,7 @@ FixRBCIB::FixRBCIB(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), cos
 {
   time_integrate = 1;
   vector_flag = 1;
-  size_vector = 9;
+  size_vector = 10;
   global_freq = 1;
   extvector = 0;
 
@@ -59,10 +68,8 @@ FixRBCIB::Settings FixRBCIB::read_arguments(int narg, char **arg)
 {
   Settings settings;
   Arguments::Choices<const rbc::IntegratorKind *> integrators;
-  for (const rbc::IntegratorKind &kind : rbc::integrator_kinds) {
+  for (const rbc::IntegratorKind &kind : rbc::integrator_kinds)
     integrators.emplace_back(kind.word, &kind);
-    if (std::string(kind.word) == DEFAULT_INTEGRATOR) settings.integrator = &kind;
-  }
 
   Arguments args(lmp, "fix rbc/ib", narg, arg, 4);
   args.read({{"kernel", [&] { settings.markers.kernel = args.choice(kernel_words); }},
@@ -95,12 +102,40 @@ FixRBCIB::Settings FixRBCIB::read_arguments(int narg, char **arg)
                 settings.largest_dt = args.positive("adapt largest timestep");
               }},
              {"sheets", [&] { sheets = args.logical() ? Sheets::YES : Sheets::NO; }}});
+  default_integrator = !settings.integrator && settings.options.order == 2;
+  if (!settings.integrator) settings.integrator = find_default();
   if (settings.options.order > 2 && !settings.integrator->takes_options)
     error->all(FLERR, "Fix rbc/ib order {} needs integrator rkc", settings.options.order);
   if (sheets == Sheets::YES && direct)
     error->all(FLERR, "Fix rbc/ib sheets yes needs scheme elastic");
-  settings.markers.any_speed_at_start = settings.error_bound > 0;
   return settings;
+}
+
+/* ----------------------------------------------------------------------
+   of the fluid as far as it is known: init() looks again
+------------------------------------------------------------------------- */
+
+const rbc::IntegratorKind *FixRBCIB::find_default() const
+{
+  const auto fluid_fix = dynamic_cast<FixRBCFluid *>(modify->get_fix_by_id(fluid));
+  const bool inertia = direct || (fluid_fix && fluid_fix->driven_flow().has_inertia());
+  return integrator_kind(inertia ? DEFAULT_WITH_INERTIA : DEFAULT_INTEGRATOR);
+}
+
+/* ----------------------------------------------------------------------
+   the fluid was defined, or another one, after this fix
+------------------------------------------------------------------------- */
+
+void FixRBCIB::update_default()
+{
+  if (!default_integrator || steps->integrator().allows_inertia() == flow->has_inertia()) return;
+  if (!flow->has_inertia())
+    error->all(FLERR,
+               "Fix rbc/ib {} was defined for a fluid with inertia, with integrator {}; fix "
+               "rbc/fluid {} has none now: define the fix anew, or name an integrator",
+               id, DEFAULT_WITH_INERTIA, fluid);
+  if (steps->adaptive()) return;    // an error of its own
+  steps->set_integrator(integrator_kind(DEFAULT_WITH_INERTIA)->make({}));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -196,6 +231,7 @@ void FixRBCIB::init()
     error->all(FLERR, "Fix rbc/ib {}: there is no fix rbc/fluid with ID {}", id, fluid);
   flow = &fluid_fix->driven_flow();
   check_run();
+  update_default();
   check_inertia();
 
   std::vector<CellMembranes *> membranes = all_cell_membranes(lmp);
@@ -216,6 +252,7 @@ void FixRBCIB::init()
     if (client->wall_group()) check_apart(*client->wall_group());
   for (StepPart *pair : pair_step_parts(force)) pair->report_to(markers->stop());
   warn_of_unheld_cells(lmp, fmt::format("Fix rbc/ib {}", id), groupbit);
+  markers->stop()->shows_failure = true;
 
   markers->start_run(flow, membranes,
                      has_sheets() ? fluid::MarkerKind::sheets : fluid::MarkerKind::points);
@@ -378,7 +415,7 @@ void FixRBCIB::final_integrate()
 
 /* ----------------------------------------------------------------------
    1-3 force of the atoms on the fluid, 4 error of the coupling, 5 stages, 6 spectral radius, 7
-   local error, 8 steps taken again, 9 timestep: of the last step
+   local error, 8 steps taken again, 9 timestep: of the last step; 10 of value 8 gone wrong
 ------------------------------------------------------------------------- */
 
 double FixRBCIB::compute_vector(int n)
@@ -396,6 +433,8 @@ double FixRBCIB::compute_vector(int n)
       return static_cast<double>(steps->rejected());
     case 8:
       return steps->last_dt();
+    case 9:
+      return static_cast<double>(steps->failed());
   }
   double sum = 0;
   if (masses)
@@ -449,12 +488,41 @@ void FixRBCIB::post_run()
 
 void FixRBCIB::warn() const
 {
+  if (steps->failed() > 0 && !steps->adaptive())
+    error->warning(
+        FLERR,
+        "Fix rbc/ib {} took steps again, {} times, because they had gone wrong; if these "
+        "are many, a shorter timestep or adapt costs less",
+        id, steps->failed());
   if (masses && masses->unconverged() > 0)
     error->warning(FLERR, "Fix rbc/ib {} reached its maxiter of {} in {} steps", id, most_solves,
                    masses->unconverged());
   if (markers->viscosity().unconverged() > 0)
     error->warning(FLERR, "Fix rbc/ib {} reached its maxiter of {} in {} evaluations", id,
                    most_solves, markers->viscosity().unconverged());
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::string FixRBCIB::remedies_for(const std::vector<Flaw> &seen)
+{
+  Situation now;
+  now.inertia = flow && flow->has_inertia();
+  now.chooses_stages = steps->integrator().can_retake();
+  now.adapts = steps->adaptive();
+  now.creases = now.limits_stretch = true;
+  std::size_t cells = 0;
+  for (const CellMembranes *membranes : all_cell_membranes(lmp)) {
+    now.membranes = true;
+    cells += membranes->local_cells().molecules().size();
+    now.creases = now.creases && membranes->parameters().crease.stiffness > 0;
+    now.limits_stretch = now.limits_stretch && membranes->parameters().stretch.stiffness > 0;
+  }
+  now.lacks_contact = cells > 1 && pair_step_parts(force).empty();
+  now.timestep = update->dt;
+  now.ghost_cutoff = comm->get_comm_cutoff();
+  now.skin = neighbor->skin;
+  return remedies(seen, now);
 }
 
 /* ---------------------------------------------------------------------- */

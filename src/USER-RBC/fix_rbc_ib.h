@@ -12,6 +12,7 @@ FixStyle(rbc/ib,FixRBCIB);
 #include "coupling/rbc_step_cost.h"
 #include "coupling/rbc_time_steps.h"
 #include "fix.h"
+#include "motion/integrators.h"
 
 #include <memory>
 #include <string>
@@ -20,7 +21,7 @@ FixStyle(rbc/ib,FixRBCIB);
 namespace LAMMPS_NS {
 
 /// Moves atoms with a fluid that their forces drive: arguments, checks, output and LAMMPS's hooks.
-class FixRBCIB : public Fix, public FluidClient {
+class FixRBCIB : public Fix, public FluidClient, public RunEnd {
  public:
   FixRBCIB(class LAMMPS *, int, char **);
   ~FixRBCIB() override;
@@ -44,6 +45,8 @@ class FixRBCIB : public Fix, public FluidClient {
   double cells_per_step() const override { return courant; }
   bool has_sheets() const override;
 
+  std::string remedies_for(const std::vector<Flaw> &) override;
+
  private:
   enum class Sheets { WITH_MEMBRANES, YES, NO };
 
@@ -51,6 +54,7 @@ class FixRBCIB : public Fix, public FluidClient {
   Sheets sheets = Sheets::WITH_MEMBRANES;
   double courant = 1;
   int most_solves = 0, integrator_code = 0;
+  bool default_integrator = false;
   bool direct = false;      // scheme direct
   bool iterates = false;    // keywords of iterations were given
 
@@ -65,6 +69,8 @@ class FixRBCIB : public Fix, public FluidClient {
 
   struct Settings;
   Settings read_arguments(int, char **);
+  const rbc::IntegratorKind *find_default() const;
+  void update_default();
   int read_stages(class Arguments &) const;
   void build(const Settings &);
   int stored() const;

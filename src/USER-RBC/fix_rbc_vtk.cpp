@@ -128,17 +128,26 @@ FixRBCVTK::Source FixRBCVTK::select(CellMembranes &membranes)
 
 void FixRBCVTK::setup(int /*vflag*/)
 {
-  if (update->ntimestep % nevery == 0 && update->ntimestep != last_step) write();
+  if (update->ntimestep % nevery == 0 && update->ntimestep != last_step) write(aggregate);
 }
 
 void FixRBCVTK::end_of_step()
 {
-  write();
+  write(aggregate);
+}
+
+/* ----------------------------------------------------------------------
+   the cells where a step went wrong, without aggregates: who is near whom may not be known
+------------------------------------------------------------------------- */
+
+void FixRBCVTK::write_failure(const std::string &why)
+{
+  if (!sources.empty()) write(nullptr, "; the run ends because of this: " + why);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void FixRBCVTK::write()
+void FixRBCVTK::write(ComputeRBCAggregate *grouping, const std::string &context)
 {
   last_step = update->ntimestep;
   const std::string name = utils::star_subst(file, last_step, 0);
@@ -146,12 +155,12 @@ void FixRBCVTK::write()
   const auto piece = [&](int rank) { return fmt::format("{}_{}.vtp", stem, rank); };
   const double time = update->atime + (last_step - update->atimestep) * update->dt;
   rbc::PointData data{ARRAYS, {"molecule"}};
-  if (aggregate) {
+  if (grouping) {
     data.labels.push_back("aggregate");
     modify->clearstep_compute();
-    if (!(aggregate->invoked_flag & Compute::INVOKED_PERATOM)) {
-      aggregate->compute_peratom();
-      aggregate->invoked_flag |= Compute::INVOKED_PERATOM;
+    if (!(grouping->invoked_flag & Compute::INVOKED_PERATOM)) {
+      grouping->compute_peratom();
+      grouping->invoked_flag |= Compute::INVOKED_PERATOM;
     }
     modify->addstep_compute((last_step / nevery + 1) * nevery);
   }
@@ -171,7 +180,7 @@ void FixRBCVTK::write()
       writer =
           std::make_unique<rbc::VtpWriter>(pieces ? piece(comm->me) : name, time, data, blocks);
     for (std::size_t s = 0; s < sources.size(); ++s)
-      write_cells(sources[s], static_cast<int>(s), writers[s], writer.get());
+      write_cells(sources[s], static_cast<int>(s), writers[s], grouping, writer.get());
     if (writer) writer->close();
     if (pieces && comm->me == 0) {
       std::vector<std::string> names(comm->nprocs);
@@ -180,7 +189,7 @@ void FixRBCVTK::write()
       rbc::write_pvtp(name, time, data, names);
     }
   } catch (const std::runtime_error &problem) {
-    error->one(FLERR, "Fix rbc/vtk {}: {}", id, problem.what());
+    error->one(FLERR, "Fix rbc/vtk {}: {}{}", id, problem.what(), context);
   }
 }
 
@@ -244,7 +253,7 @@ std::vector<FixRBCVTK::Vertex> FixRBCVTK::collect(const Source &source,
 ------------------------------------------------------------------------- */
 
 void FixRBCVTK::write_cells(const Source &source, int block, const std::vector<int> &writers,
-                            rbc::VtpWriter *writer)
+                            const ComputeRBCAggregate *grouping, rbc::VtpWriter *writer)
 {
   const LocalCells &local = source.membranes->local_cells();
   const rbc::SurfaceTemplate &shape = source.membranes->shape();
@@ -261,7 +270,7 @@ void FixRBCVTK::write_cells(const Source &source, int block, const std::vector<i
   auto next = received.begin();
   std::vector<Vec3> x(size), v(size), f(size);
   std::vector<double> tension;
-  const int head = aggregate ? 3 : 2;    // slot and labels
+  const int head = grouping ? 3 : 2;    // slot and labels
   std::vector<double> message(head + VALUES * size);
   const auto write = [&] { writer->write(block, message[0], &message[1], &message[head]); };
   for (std::size_t n = 0; n < mine.size(); ++n) {
@@ -283,7 +292,7 @@ void FixRBCVTK::write_cells(const Source &source, int block, const std::vector<i
 
     message[0] = pieces ? n : source.slots[cell.index];
     message[1] = static_cast<double>(local.molecules()[cell.index]);
-    if (aggregate) message[2] = aggregate->vector_atom[cell.atom[0]];
+    if (grouping) message[2] = grouping->vector_atom[cell.atom[0]];
     double *at = message.data() + head;
     for (const std::vector<Vec3> *vectors : {&x, &v, &f})
       for (const Vec3 &vector : *vectors) at = std::copy_n(vector.data(), 3, at);

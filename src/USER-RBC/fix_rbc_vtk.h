@@ -19,13 +19,14 @@ class VtpWriter;
 
 namespace LAMMPS_NS {
 
-class FixRBCVTK : public Fix {
+class FixRBCVTK : public Fix, public RunEnd {
  public:
   FixRBCVTK(class LAMMPS *, int, char **);
   int setmask() override;
   void init() override;
   void setup(int) override;
   void end_of_step() override;
+  void write_failure(const std::string &) override;
   double memory_usage() override;
 
  private:
@@ -45,10 +46,11 @@ class FixRBCVTK : public Fix {
   bigint last_step = -1;
 
   Source select(CellMembranes &);
-  void write();
+  void write(class ComputeRBCAggregate *, const std::string & = "");
   std::vector<int> find_writers(const Source &) const;
   std::vector<Vertex> collect(const Source &, const std::vector<int> &);
-  void write_cells(const Source &, int, const std::vector<int> &, rbc::VtpWriter *);
+  void write_cells(const Source &, int, const std::vector<int> &, const ComputeRBCAggregate *,
+                   rbc::VtpWriter *);
   void wrap(std::vector<rbc::Vec3> &) const;
 };
 

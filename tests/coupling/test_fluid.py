@@ -179,7 +179,7 @@ class InTime(unittest.TestCase):
 
 TRACERS = dict(cells="mass 1 1\ncreate_atoms 1 single 1 2 3\ncreate_atoms 1 single 11.9 11.9 6\n"
                      "create_atoms 1 single 6 6 10.5", thermo="thermo_style custom step f_flow[12]", every="thermo 100",
-               ib="fix ib all rbc/ib flow")
+               ib="fix ib all rbc/ib flow integrator midpoint")
 
 
 class Tracers(unittest.TestCase):

@@ -184,7 +184,7 @@ class Tube(unittest.TestCase):
                  "rbc/create rbc single 6 12 12 rotate 30 0 1 0\nrbc/create rbc single 14 12 12.5 rotate 80 0 1 0\n"
                  "group cells type 1",
                  before="fix mem cells rbc/membrane rbc mooney-rivlin 0.257 0.0257 0.01 bending 2.0e-4 volume yes",
-                 ib="fix ib cells rbc/ib flow", drive="body 1e-5 0 0", timestep="timestep 400",
+                 ib="fix ib cells rbc/ib flow integrator midpoint", drive="body 1e-5 0 0", timestep="timestep 400",
                  dump=dump_line(10, columns="id mol xu yu zu vx vy vz"))
 
     def cells(self, **changes):

@@ -292,7 +292,7 @@ class Drive(Case):
     def test_of_the_whole_periodic_box(self):
         """Held by the mean velocity of the box; a force on a bead is what the gradient has to balance."""
         lines = dict(boundary="boundary p p p", cells="create_atoms 1 single 9 10 6\nfix pull all addforce 0.02 0 0",
-                     ib="fix ib all rbc/ib flow", timestep="timestep 10")
+                     ib="fix ib all rbc/ib flow integrator midpoint", timestep="timestep 10")
         result = run_slit("mean x 0.01 inside tube", walls="", **lines)
         self.assertIn("WARNING: Fix rbc/fluid flow inside tube: there is no fix rbc/wall", result.printed)
         thermo = result.thermo

@@ -132,6 +132,7 @@ void CellMembranes::add_forces()
   const bool measuring = model_.needs_size() || neighbor->ago == 0;
   if (measuring) measure_shared_cells();
   energy_ = {};
+  nearly_folded_ = false;
   const auto &local = cells_.cells();
   for (std::size_t c = 0; c < local.size(); ++c) {
     set_current_cell(local[c]);
@@ -181,12 +182,13 @@ void CellMembranes::measure_shared_cells()
 void CellMembranes::check_mesh(const LocalCells::Cell &cell)
 {
   const std::string flaw = model_.find_flaw();
-  if (!flaw.empty()) report(cell, flaw);
+  if (!flaw.empty()) report(cell, flaw, Flaw::folded);
+  nearly_folded_ = nearly_folded_ || model_.is_nearly_folded();
 }
 
 void CellMembranes::check_volume(const LocalCells::Cell &cell, double volume)
 {
-  if (volume <= 0) report(cell, "the cell turned inside out");
+  if (volume <= 0) report(cell, "the cell turned inside out", Flaw::folded);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -194,7 +196,8 @@ void CellMembranes::check_volume(const LocalCells::Cell &cell, double volume)
 void CellMembranes::add_elastic_forces(const LocalCells::Cell &cell, const rbc::AreaVolume &size)
 {
   const rbc::MembraneEnergy share = model_.forces(size, f_);
-  if (!std::isfinite(share.total())) report(cell, "the energy of the membrane is not a number");
+  if (!std::isfinite(share.total()))
+    report(cell, "the energy of the membrane is not a number", Flaw::not_finite);
   energy_.sheet += share.sheet;
   energy_.bending += share.bending;
   energy_.area += share.area;
@@ -331,7 +334,7 @@ void CellMembranes::constrain_volume(double dt, bool new_step, bool mid_step)
   const auto &local = cells_.cells();
   for (std::size_t c = 0; c < local.size(); ++c) {
     const LocalCells::Cell &cell = local[c];
-    if (!(sums_[3 * c + 2] > 0)) report(cell, "the cell turned inside out");
+    if (!(sums_[3 * c + 2] > 0)) report(cell, "the cell turned inside out", Flaw::folded);
     if (new_step) volume_rates_[c] = rate(rest - sums_[3 * c + 2], VOLUME_STEPS * dt);
     const double factor = (volume_rates_[c] + rest_rate - sums_[3 * c]) / sums_[3 * c + 1];
     const Vec3 *const gradient = &volume_gradient_[c * size];
@@ -372,13 +375,15 @@ void CellMembranes::find_volume_sums()
 
 /* ---------------------------------------------------------------------- */
 
-void CellMembranes::report(const LocalCells::Cell &cell, const std::string &what)
+void CellMembranes::report(const LocalCells::Cell &cell, const std::string &what, Flaw flaw)
 {
   Vec3 centre = cell.origin;
   domain->remap(centre.data());
-  stop_->report(fmt::format(
-      "{}: {} at step {}: cell with molecule ID {} near ({:.6g}, {:.6g}, {:.6g})", style_, what,
-      update->ntimestep, cells_.molecules()[cell.index], centre[0], centre[1], centre[2]));
+  stop_->report(
+      fmt::format("{}: {} at step {}: cell with molecule ID {} near ({:.6g}, {:.6g}, {:.6g})",
+                  style_, what, update->ntimestep, cells_.molecules()[cell.index], centre[0],
+                  centre[1], centre[2]),
+      flaw);
 }
 
 /* ---------------------------------------------------------------------- */

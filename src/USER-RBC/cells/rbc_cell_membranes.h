@@ -67,6 +67,9 @@ class CellMembranes : public StepPart, protected Pointers {
   /// positions. Collective. Flaws of the mesh are reported; without a driver they end the run here.
   void add_forces();
 
+  /// Whether a triangle here was close to a flaw in the last add_forces().
+  bool is_nearly_folded() const { return nearly_folded_; }
+
   /// Elastic energies of all cells in the last add_forces(). Collective.
   rbc::MembraneEnergy energy() const;
 
@@ -126,6 +129,7 @@ class CellMembranes : public StepPart, protected Pointers {
   std::vector<rbc::Vec3> volume_gradient_;    ///< of each vertex
   std::vector<rbc::Vec3> linear_at_;          ///< velocity of each vertex
   bool viscosity_frozen_ = false;
+  bool nearly_folded_ = false;
   rbc::MembraneEnergy energy_;    ///< this rank's share
 
   bool bends() const { return settings_.elastic.bending > 0; }
@@ -140,7 +144,7 @@ class CellMembranes : public StepPart, protected Pointers {
   double viscous_forces(const LocalCells::Cell &cell);
   void add_to_atoms(const LocalCells::Cell &cell, bool with_virial);
   void find_volume_sums();
-  void report(const LocalCells::Cell &cell, const std::string &what);
+  void report(const LocalCells::Cell &cell, const std::string &what, Flaw flaw);
 };
 
 /// A fix that owns membranes.

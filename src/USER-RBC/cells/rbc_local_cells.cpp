@@ -202,12 +202,14 @@ void LocalCells::check_neighbors(std::size_t c, int rings, CollectiveStop &stop)
   for (int t : local[c].elements->triangles)
     for (int v : shape.triangles[t])
       if (known[v] < 0)
-        return stop.report(fmt::format(
-            "{}: ghost cutoff {} is too short at step {} for the cell with molecule ID {} near "
-            "({:.6g}, {:.6g}, {:.6g}): a neighbor of its vertices is unknown; its edges are "
-            "stretched too far, or use comm_modify cutoff (at rest at least {})",
-            style, comm->get_comm_cutoff(), update->ntimestep, molecule_ids[local[c].index],
-            near[0], near[1], near[2], rings * shape.longest_edge));
+        return stop.report(
+            fmt::format(
+                "{}: ghost cutoff {} is too short at step {} for the cell with molecule ID {} near "
+                "({:.6g}, {:.6g}, {:.6g}): a neighbor of its vertices is unknown; its edges are "
+                "stretched too far, or use comm_modify cutoff (at rest at least {})",
+                style, comm->get_comm_cutoff(), update->ntimestep, molecule_ids[local[c].index],
+                near[0], near[1], near[2], rings * shape.longest_edge),
+            Flaw::stretched);
 }
 
 void LocalCells::find_shared(const std::vector<char> &is_part)

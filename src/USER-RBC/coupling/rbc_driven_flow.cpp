@@ -344,10 +344,12 @@ void DrivenFlow::check_courant()
     if (std::isfinite(courant))
       stop_.report(fmt::format("{}: the fluid at {} crosses {:.3g} cells in a step at step {} (CFL "
                                "above {}; timestep too large for inertia convective)",
-                               style_, place, courant, update->ntimestep, MAX_COURANT));
+                               style_, place, courant, update->ntimestep, MAX_COURANT),
+                   Flaw::too_fast);
     else
       stop_.report(fmt::format("{}: the velocity of the fluid at {} is not a number at step {}",
-                               style_, place, update->ntimestep));
+                               style_, place, update->ntimestep),
+                   Flaw::not_finite);
   }
   stop_.check();
 }

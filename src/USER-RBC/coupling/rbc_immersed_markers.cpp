@@ -41,6 +41,7 @@ void ImmersedMarkers::start_run(DrivenFlow *flow, const std::vector<CellMembrane
 {
   flow_ = flow;
   kind_ = kind;
+  membranes_ = membranes;
   volume_keepers_.clear();
   for (CellMembranes *cells : membranes)
     if (cells->keeps_volume()) volume_keepers_.push_back(cells);
@@ -98,6 +99,16 @@ std::int64_t ImmersedMarkers::label(std::size_t point) const
 
 void ImmersedMarkers::velocity(const Numbers &x, double fraction, Numbers &v)
 {
+  evaluate(x, fraction, Stage::within, v);
+}
+
+void ImmersedMarkers::velocity_at_end(const Numbers &x, Numbers &v)
+{
+  evaluate(x, 1, Stage::end, v);
+}
+
+void ImmersedMarkers::evaluate(const Numbers &x, double fraction, Stage stage, Numbers &v)
+{
   store(x, atom->x);
   // Membranes at rest exert no viscous forces: the estimate is then for elastic forces alone.
   if (estimating_spectrum_) std::fill(v.begin(), v.end(), 0.0);
@@ -105,7 +116,7 @@ void ImmersedMarkers::velocity(const Numbers &x, double fraction, Numbers &v)
   check_positions();
   flow_->set_time(fraction);
   recompute_forces();
-  velocities_from_forces(Stage::within);
+  velocities_from_forces(stage);
   load(atom->v, v);
 }
 
@@ -207,6 +218,16 @@ void ImmersedMarkers::recompute_forces()
   if (modify->n_post_force_any) modify->post_force(vflag);
 }
 
+/* ---------------------------------------------------------------------- */
+
+bool ImmersedMarkers::is_nearly_folded() const
+{
+  int nearly = 0;
+  for (const CellMembranes *cells : membranes_) nearly |= cells->is_nearly_folded() ? 1 : 0;
+  if (comm->nprocs > 1) MPI_Allreduce(MPI_IN_PLACE, &nearly, 1, MPI_INT, MPI_MAX, world);
+  return nearly != 0;
+}
+
 /* ----------------------------------------------------------------------
    LAMMPS would delete an atom beyond a plate when atoms migrate; this finds it before.
 ------------------------------------------------------------------------- */
@@ -217,7 +238,20 @@ void ImmersedMarkers::check_positions()
   double **const x = atom->x;
   for (int i : members_)
     if (!(x[i][2] >= domain->boxlo[2] && x[i][2] < domain->boxhi[2]))
-      return report(i, "went through a plate");
+      return report(i, "went through a plate", Flaw::through_plate);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void ImmersedMarkers::check_displacements(const Numbers &start, const Numbers &end)
+{
+  const double furthest = settings_.courant * flow_->smallest_spacing();
+  for (std::size_t n = 0; n < members_.size(); ++n) {
+    double square = 0;
+    for (int d = 0; d < 3; ++d) square += std::pow(end[3 * n + d] - start[3 * n + d], 2);
+    if (square <= furthest * furthest) continue;
+    return report_crossing(members_[n], std::sqrt(square) / furthest);
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -249,33 +283,45 @@ void ImmersedMarkers::check_velocities(Stage stage)
 void ImmersedMarkers::report_too_fast(Stage stage)
 {
   const bool any_speed =
-      estimating_spectrum_ || (settings_.any_speed_at_start && stage == Stage::start);
-  const double fastest = settings_.courant * flow_->smallest_spacing() / update->dt;
+      estimating_spectrum_ || (any_speed_between_steps_ && stage != Stage::within);
+  const double fastest = settings_.courant * flow_->smallest_spacing() * parts_ / update->dt;
   double **const v = atom->v;
   for (int i : members_) {
     const double speed2 = v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2];
     if (std::isfinite(speed2) && (any_speed || speed2 <= fastest * fastest)) continue;
-    if (std::isfinite(speed2))
-      return report(
-          i, fmt::format("would cross {:.3g} fluid cells in a step (CFL above {}; timestep "
-                         "too large or unstable)",
-                         settings_.courant * std::sqrt(speed2) / fastest, settings_.courant));
-    return report(i, "has a velocity that is not a number");
+    if (std::isfinite(speed2)) return report_crossing(i, std::sqrt(speed2) / fastest);
+    return report(i, "has a velocity that is not a number", Flaw::not_finite);
   }
+}
+
+/* ----------------------------------------------------------------------
+   a marker that crosses a multiple of what it may
+------------------------------------------------------------------------- */
+
+void ImmersedMarkers::report_crossing(int i, double multiple)
+{
+  report(i,
+         fmt::format("would cross {:.3g} fluid cells in a step (CFL above {}; timestep too "
+                     "large or unstable)",
+                     settings_.courant * multiple, settings_.courant),
+         Flaw::too_fast);
 }
 
 void ImmersedMarkers::report_outside(int i)
 {
-  report(i, "left the fluid its MPI task holds (reneighboring too rare, see neigh_modify)");
+  report(i, "left the fluid its MPI task holds (reneighboring too rare, see neigh_modify)",
+         Flaw::left_fluid);
 }
 
-void ImmersedMarkers::report(int i, const std::string &what)
+void ImmersedMarkers::report(int i, const std::string &what, Flaw flaw)
 {
   double **const x = atom->x;
-  stop_->report(fmt::format(
-      "{}: vertex with atom ID {} {} at step {}: molecule ID {} at ({:.6g}, {:.6g}, {:.6g})",
-      style_, atom->tag[i], what, update->ntimestep, atom->molecule_flag ? atom->molecule[i] : 0,
-      x[i][0], x[i][1], x[i][2]));
+  stop_->report(
+      fmt::format(
+          "{}: vertex with atom ID {} {} at step {}: molecule ID {} at ({:.6g}, {:.6g}, {:.6g})",
+          style_, atom->tag[i], what, update->ntimestep,
+          atom->molecule_flag ? atom->molecule[i] : 0, x[i][0], x[i][1], x[i][2]),
+      flaw);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -25,8 +25,6 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
   struct Settings {
     fluid::KernelKind kernel = fluid::KernelKind::peskin4;
     double courant = 1;    ///< fluid cells that a marker may cross in a step
-    bool any_speed_at_start =
-        false;    ///< from the velocities at the start of a step, which may be of any size
   };
 
   /// `style` names the fix in errors.
@@ -47,6 +45,10 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
   /// rejects the step.
   const std::shared_ptr<CollectiveStop> &stop() const { return stop_; }
 
+  /// Between steps velocities may be of any size: it is tried whether the next step can be taken.
+  /// Set at the start of a run.
+  void allow_any_speed_between_steps(bool any) { any_speed_between_steps_ = any; }
+
   /// Finds the local indices of the group's atoms on this rank; call after atoms migrated. Not
   /// collective.
   void find_members();
@@ -63,9 +65,11 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
 
   void velocity(const rbc::Numbers &x, double fraction, rbc::Numbers &v) override;
   void velocity_at_start(const rbc::Numbers &x, rbc::Numbers &v) override;
+  void velocity_at_end(const rbc::Numbers &x, rbc::Numbers &v);
   void sum(double *values, int count) const override;
   std::int64_t label(std::size_t point) const override;
   void estimate_spectrum(bool on) override { estimating_spectrum_ = on; }
+  void divide_step(int parts) override { parts_ = parts; }
 
   using Stage = EvaluationStage;
 
@@ -100,6 +104,10 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
   /// Collective.
   double longest_step() const;
 
+  /// Whether a triangle of a membrane was close to a fold when forces were last computed.
+  /// Collective.
+  bool is_nearly_folded() const;
+
   /// Reports a marker that would cross more than `courant` cells in a step, or whose velocity is
   /// not a number, and checks stop(): collective, ends the run or throws FailedTrial.
   void check_velocities(Stage stage);
@@ -107,10 +115,14 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
   /// Reports a marker beyond a plate to stop(), which must be checked later. Not collective.
   void check_positions();
 
+  /// Reports a marker that has moved by more than `courant` cells from `start` to `end`. Not
+  /// collective.
+  void check_displacements(const rbc::Numbers &start, const rbc::Numbers &end);
+
   /// Reports that `what` is wrong with local atom i. The next check of stop() ends the run or
   /// rejects the step. Not collective.
   void report_outside(int i);
-  void report(int i, const std::string &what);
+  void report(int i, const std::string &what, Flaw flaw = Flaw::other);
 
   void report_to(const std::shared_ptr<CollectiveStop> &stop) override { stop_ = stop; }
   std::vector<Section> sections() override { return {{"Exchange", &exchanging_}}; }
@@ -123,17 +135,20 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
   Settings settings_;
   fluid::MarkerKind kind_ = fluid::MarkerKind::points;
   DrivenFlow *flow_ = nullptr;
-  std::vector<CellMembranes *> volume_keepers_;
+  std::vector<CellMembranes *> membranes_, volume_keepers_;
   std::vector<int> members_;
   ImplicitViscosity viscosity_;
   MassiveMarkers *masses_ = nullptr;
   std::shared_ptr<CollectiveStop> stop_;
   rbc::Stopwatch exchanging_;
-  bool estimating_spectrum_ = false;
+  bool estimating_spectrum_ = false, any_speed_between_steps_ = false;
+  int parts_ = 1;           ///< of the step
   rbc::Numbers applied_;    ///< a row for each atom here
 
   double *rows(double **array) const { return members_.empty() ? nullptr : array[0]; }
+  void evaluate(const rbc::Numbers &x, double fraction, Stage stage, rbc::Numbers &v);
   void report_too_fast(Stage stage);
+  void report_crossing(int i, double multiple);
 };
 
 }    // namespace LAMMPS_NS

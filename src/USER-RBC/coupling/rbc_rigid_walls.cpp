@@ -217,10 +217,12 @@ void RigidWalls::spread(fluid::Flow &flow, double fraction, const std::array<dou
   if (outside < 0) return;
   const Marker &lost = markers_[outside];
   const double *const x = atom->x[lost.atom];
-  stop.report(fmt::format(
-      "{}: wall atom with ID {} left the fluid its MPI task holds (reneighboring too rare, see "
-      "neigh_modify) or lies beyond a plate at step {}: ({:.6g}, {:.6g}, {:.6g})",
-      walls_[lost.wall]->style(), lost.tag, update->ntimestep, x[0], x[1], x[2]));
+  stop.report(
+      fmt::format(
+          "{}: wall atom with ID {} left the fluid its MPI task holds (reneighboring too rare, see "
+          "neigh_modify) or lies beyond a plate at step {}: ({:.6g}, {:.6g}, {:.6g})",
+          walls_[lost.wall]->style(), lost.tag, update->ntimestep, x[0], x[1], x[2]),
+      Flaw::left_fluid);
 }
 
 /* ---------------------------------------------------------------------- */

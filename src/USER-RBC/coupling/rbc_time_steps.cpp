@@ -29,11 +29,17 @@ TimeSteps::TimeSteps(LAMMPS *lmp, std::string style, ImmersedMarkers &markers,
                      std::unique_ptr<rbc::Integrator> integrator, double tolerance,
                      double largest_dt) :
     Pointers(lmp),
-    style_(std::move(style)), markers_(markers), integrator_(std::move(integrator)), store_(markers)
+    style_(std::move(style)), markers_(markers), store_(markers)
 {
   control_.tolerance = tolerance;
   control_.largest = largest_dt;
   control_.smallest = SMALLEST_PART * largest_dt;
+  set_integrator(std::move(integrator));
+}
+
+void TimeSteps::set_integrator(std::unique_ptr<rbc::Integrator> integrator)
+{
+  integrator_ = std::move(integrator);
   control_.order = integrator_->order();
   control_.growth = integrator_->largest_growth();
 }
@@ -56,6 +62,8 @@ void TimeSteps::start_run(DrivenFlow *flow, bool forces_change)
   forces_change_ = forces_change;
   first_step_ = step();
   rejected_ = failed_ = 0;
+  last_failure_.clear();
+  markers_.allow_any_speed_between_steps(control_.active() || integrator_->can_retake());
   if (!control_.active()) return;
   const bool changed = update->dt != last_dt_ && !restarted_;    // by the user
   if (next_dt_ == 0 || changed) next_dt_ = update->dt;
@@ -131,15 +139,11 @@ void TimeSteps::advance()
   choose_timestep();
   markers_.load(atom->x, X_);
   markers_.load(atom->v, V_);
-  bool again = false;
-  do {
-    flow_->begin_step(again);
-    again = true;
-  } while (!step_is_accepted());
-  markers_.store(X_new_, atom->x);
+  tries_ = 0;
+  seen_.clear();
+  do flow_->begin_step(tries_++ > 0);
+  while (!step_is_accepted());
   flow_->place_walls(1);
-  markers_.check_positions();
-  markers_.stop()->check();
   integrator_->accept(store_, start(), X_new_);
   last_dt_ = update->dt;
 }
@@ -182,50 +186,85 @@ void TimeSteps::take_step()
 
 bool TimeSteps::step_is_accepted()
 {
-  if (!control_.active()) {
-    try {
-      take_step();
-    } catch (const rbc::StepFailure &failure) {
-      error->all(FLERR, "{}: {} at step {}", style_, failure.what(), update->ntimestep);
-    }
+  if (!control_.active() && !integrator_->can_retake()) {
+    take_step();
+    check_result();
     return true;
   }
 
-  const std::string flaw = try_step();
-  if (flaw.empty() && local_error_ <= control_.tolerance) return true;
+  const bool went_well = try_step();
+  if (went_well && (!control_.active() || local_error_ <= control_.tolerance)) return true;
   integrator_->reject(markers_, store_, start(), X_new_);
 
   ++rejected_;
-  if (!flaw.empty()) {
-    ++failed_;
-    last_failure_ = flaw;
+  if (!went_well) ++failed_;
+  if (control_.active()) {
+    if (next_dt_ < control_.smallest) stop_adapting(!went_well);
+    set_timestep(next_dt_, step() - 1);
+  } else if (!integrator_->retake()) {
+    stop_retaking();
   }
-  if (next_dt_ < control_.smallest) stop_adapting(flaw);
-  set_timestep(next_dt_, step() - 1);
   return false;
 }
 
 /* ----------------------------------------------------------------------
-   returns what went wrong
+   false if something went wrong
 ------------------------------------------------------------------------- */
 
-std::string TimeSteps::try_step()
+bool TimeSteps::try_step()
 {
-  std::string flaw;
+  const std::size_t before = seen_.size();
   X_new_ = X_;
+  velocities_known_ = false;
   markers_.stop()->trying = true;
   try {
     take_step();
-    measure_error();
-    next_dt_ = control_.next(update->dt, local_error_);
+    if (control_.active()) {
+      measure_error();
+      next_dt_ = control_.next(update->dt, local_error_);
+    } else {
+      check_result();
+      if (integrator_->has_grown())
+        note_failure(
+            fmt::format("{}: displacements grew as in an unstable step at step {}", style_, step()),
+            Flaw::unstable);
+    }
   } catch (const rbc::StepFailure &failure) {
-    flaw = fmt::format("{}: {} at step {}", style_, failure.what(), update->ntimestep);
+    const std::string what = fmt::format("{}: {} at step {}", style_, failure.what(), step());
+    if (!control_.active()) markers_.stop()->end_run(what, {Flaw::too_fast});
+    note_failure(what, Flaw::other);
   } catch (const CollectiveStop::FailedTrial &failure) {
-    flaw = failure.what();
+    note_failure(failure.what(), failure.flaw);
   }
-  if (!flaw.empty()) next_dt_ = control_.after_failure(update->dt);
   markers_.stop()->trying = false;
-  return flaw;
+  if (seen_.size() == before) return true;
+  if (control_.active()) next_dt_ = control_.after_failure(update->dt);
+  return false;
+}
+
+void TimeSteps::note_failure(const std::string &what, Flaw flaw)
+{
+  last_failure_ = what;
+  seen_.push_back(flaw);
+}
+
+/* ---------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   forces at the end of a step are LAMMPS's, and come too late to take the step again: they are
+   computed here, too, where something is likely to be wrong
+------------------------------------------------------------------------- */
+
+void TimeSteps::check_result()
+{
+  markers_.store(X_new_, atom->x);
+  markers_.check_positions();
+  if (tries_ > 1) markers_.check_displacements(X_, X_new_);    // parts allow more
+  markers_.stop()->check();
+  if (!integrator_->can_retake() || (tries_ == 1 && !markers_.is_nearly_folded())) return;
+  V_new_ = V_;
+  markers_.velocity_at_end(X_new_, V_new_);
+  velocities_known_ = true;
 }
 
 void TimeSteps::measure_error()
@@ -238,14 +277,25 @@ void TimeSteps::measure_error()
 
 /* ---------------------------------------------------------------------- */
 
-void TimeSteps::stop_adapting(const std::string &flaw)
+void TimeSteps::stop_adapting(bool went_wrong)
 {
-  if (!flaw.empty())
-    error->all(FLERR, "{} (so with all timesteps of adapt, down to {:.3g})", flaw, update->dt);
+  if (went_wrong)
+    markers_.stop()->end_run(fmt::format("{} (so with all timesteps of adapt, down to {:.3g})",
+                                         last_failure_, update->dt),
+                             seen_);
   error->all(FLERR,
              "{}: no timestep above {:.3g} meets the error {:.3g} of adapt at step {}; the local "
              "error is {:.3g}",
              style_, control_.smallest, control_.tolerance, update->ntimestep, local_error_);
+}
+
+void TimeSteps::stop_retaking()
+{
+  markers_.stop()->end_run(
+      fmt::format("{} (so also when the step was taken again, {} times, with more stages and in "
+                  "parts)",
+                  last_failure_, tries_ - 1),
+      seen_);
 }
 
 /* ----------------------------------------------------------------------

@@ -9,6 +9,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -21,6 +22,7 @@ class TimeSteps : protected Pointers {
             std::unique_ptr<rbc::Integrator> integrator, double tolerance, double largest_dt);
 
   const rbc::Integrator &integrator() const { return *integrator_; }
+  void set_integrator(std::unique_ptr<rbc::Integrator> integrator);
   bool adaptive() const { return control_.active(); }
 
   /// Columns that must be kept for each atom, in `store`; 0 at first.
@@ -48,7 +50,7 @@ class TimeSteps : protected Pointers {
   double local_error() const { return local_error_; }
   bigint rejected() const { return rejected_; }
   bigint failed() const { return failed_; }    ///< of these: went wrong altogether
-  const std::string &last_failure() const { return last_failure_; }
+  const std::string &last_failure() const { return last_failure_; }    ///< empty if none did
   double last_dt() const { return last_dt_; }
 
   /// Last timestep, next timestep, step of the last velocities, what the integrator keeps.
@@ -73,6 +75,8 @@ class TimeSteps : protected Pointers {
   bigint first_step_ = 0;
   bigint velocity_step_ = -1;         ///< at whose end the atoms' velocities were found; -1: none
   bool doubts_velocities_ = false;    ///< they are still to be compared with those of the forces
+  int tries_ = 0;                     ///< of this step
+  std::vector<Flaw> seen_;            ///< in these
   bool forces_change_ = false;
 
   // Of the present step, three numbers for each marker here: positions and velocities at its start
@@ -94,9 +98,12 @@ class TimeSteps : protected Pointers {
   void choose_timestep();
   void take_step();
   bool step_is_accepted();
-  std::string try_step();
+  bool try_step();
+  void check_result();
   void measure_error();
-  void stop_adapting(const std::string &flaw);
+  void note_failure(const std::string &what, Flaw flaw);
+  void stop_adapting(bool went_wrong);
+  void stop_retaking();
   void set_timestep(double dt, bigint from_step);
 };
 

@@ -24,6 +24,10 @@ constexpr double SHARPEST_FOLD = -0.9962;
 
 constexpr double FOLDED_OVER = -0.5;
 
+// where it is worth looking again before a step ends
+
+constexpr double NEARLY_FOLDED = -0.87;
+
 inline PlainVector position(const double *x, int vertex)
 {
   return {x[3 * vertex], x[3 * vertex + 1], x[3 * vertex + 2]};
@@ -94,6 +98,7 @@ std::string MembraneModel::find_flaw()
   const int hinges = static_cast<int>(elements_->hinges.size());
   const auto number = [&](int t) { return std::to_string(elements_->triangles[t] + 1); };
   std::string flaw;
+  nearly_folded_ = false;
   std::fill(folded_.begin(), folded_.end(), 0);
   for (int e = 0; e < hinges; ++e) {
     const double cosine = dot(normal_[left[e]], normal_[right[e]]);
@@ -101,8 +106,11 @@ std::string MembraneModel::find_flaw()
     if (cosine < SHARPEST_FOLD && flaw.empty())
       flaw = "triangles " + number(left[e]) + " and " + number(right[e]) +
              " are folded onto each other";
-    for (int t : {left[e], right[e]})
+    nearly_folded_ = nearly_folded_ || cosine < NEARLY_FOLDED;
+    for (int t : {left[e], right[e]}) {
       if (++folded_[t] == 3) return "triangle " + number(t) + " is inverted";
+      nearly_folded_ = nearly_folded_ || folded_[t] == 2;
+    }
   }
   return flaw;
 }

@@ -68,6 +68,10 @@ class MembraneModel {
   /// have passed through others. Empty if there are none.
   std::string find_flaw();
 
+  /// Whether find_flaw() has met a fold sharper than 150 degrees, or a triangle that is folded over
+  /// against two neighbors.
+  bool is_nearly_folded() const { return nearly_folded_; }
+
   /// Forces on the vertices owned (others are left undefined) and this rank's share of the energy.
   /// `size` is that of the whole cell.
   MembraneEnergy forces(const AreaVolume &size, std::vector<Vec3> &f);
@@ -102,6 +106,7 @@ class MembraneModel {
   std::vector<double> pull_;      ///< of each hinge: d(energy)/d(length) per length
   std::vector<double> vertex_area_, vertex_integral_;    ///< of the mean curvature
   std::vector<double> vertex_tension_;                   ///< d(bending energy)/d(vertex area)
+  bool nearly_folded_ = false;
   std::vector<int> folded_;    ///< neighbors against which a triangle is folded over
 };
 

@@ -82,7 +82,21 @@ void ChebyshevMethod::step(Motion &motion, double dt, const Numbers &start, cons
     }
     past.add_to(rate_, past.velocity_weights(at * dt), 1);
   }
+  measure_rate_back(motion, start, velocity, x);
   place(1);
+}
+
+void ChebyshevMethod::measure_rate_back(const Motion &motion, const Numbers &start,
+                                        const Numbers &velocity, const Numbers &x)
+{
+  double sums[2] = {0, 0};
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double change = rate_[i] - velocity[i], distance = x[i] - start[i];
+    sums[0] -= distance * change;
+    sums[1] += distance * distance;
+  }
+  motion.sum(sums, 2);
+  rate_back_ = sums[1] > 0 ? sums[0] / sums[1] : 0;
 }
 
 std::size_t ChebyshevMethod::bytes() const

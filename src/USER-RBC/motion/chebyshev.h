@@ -38,6 +38,12 @@ class ChebyshevMethod {
   void step(Motion &motion, double dt, const Numbers &start, const Numbers &velocity,
             const DisplacementHistory &past, Numbers &x, double begin = 0, double part = 1);
 
+  /// Of the last step(): the rate at which the points are driven back to where they came from,
+  ///   - dX . dV / dX . dX
+  /// with the changes of positions and velocities from the start to the last stage. In a motion that
+  /// relaxes it is not above the spectral radius, and near it only if the fastest modes have grown.
+  double rate_back() const { return rate_back_; }
+
   std::size_t bytes() const;
 
  private:
@@ -47,9 +53,13 @@ class ChebyshevMethod {
   struct Stage {
     double mu, nu, rate, base, at;
   };
+
+  void measure_rate_back(const Motion &motion, const Numbers &start, const Numbers &velocity,
+                         const Numbers &x);
   int order_;
   double damping_;
   std::vector<Stage> stages_;
+  double rate_back_ = 0;
   Numbers rate_, first_rate_, deviation_, before_;
 };
 

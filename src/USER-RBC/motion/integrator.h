@@ -35,7 +35,7 @@ class PointStore {
 class Integrator {
  public:
   /// What goes into restart files, besides the vectors of the points.
-  static constexpr int STATE = 9;
+  static constexpr int STATE = 10;
   using State = std::array<double, STATE>;
 
   virtual ~Integrator() = default;
@@ -73,13 +73,23 @@ class Integrator {
   virtual void step(Motion &motion, PointStore &store, const StepStart &start, Numbers &x) = 0;
 
   /// One of both follows each step(). accept(): the positions `x` are those of the end of the step.
-  /// reject(): the step is made again from the same start with another timestep; `x` is how far it
-  /// came if it had no result.
+  /// reject(): the step is made again from the same start, with another timestep or, where retake()
+  /// allows it, with the same; `x` is how far it came if it had no result.
   virtual void accept(PointStore & /*store*/, const StepStart & /*start*/, const Numbers & /*x*/) {}
   virtual void reject(const Motion & /*motion*/, PointStore & /*store*/,
                       const StepStart & /*start*/, const Numbers & /*x*/)
   {
   }
+
+  /// Whether the step() just made has moved the points as one that is unstable would.
+  virtual bool has_grown() const { return false; }
+
+  /// Whether a step that went wrong may be taken again with the same timestep, in another way.
+  virtual bool can_retake() const { return false; }
+
+  /// After reject(): the step is taken again with the same timestep. Returns false, and the run
+  /// must stop, where all ways were tried since the last accept().
+  virtual bool retake() { return false; }
 
   virtual int stages() const { return 0; }
   virtual double spectral_radius() const { return 0; }

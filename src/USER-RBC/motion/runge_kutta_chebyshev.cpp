@@ -11,6 +11,8 @@ namespace {
 constexpr double LARGEST_GROWTH = 1.2;    // third order: of a timestep over the one before
 constexpr int STARTING_PARTS = 8;         // third order: parts of a step without a past
 
+constexpr int MOST_RETAKES = 6;    // of a step: the last one is in 32 parts
+
 static_assert(DisplacementHistory::LONGEST + StabilityEstimate::STATE == Integrator::STATE);
 
 std::string short_number(double value)
@@ -19,6 +21,18 @@ std::string short_number(double value)
   std::snprintf(text, sizeof(text), "%.3g", value);
   return text;
 }
+
+/// Tells the motion of the parts of a step, until it goes out of scope.
+class Divided {
+ public:
+  Divided(Motion &motion, int parts) : motion_(motion) { motion_.divide_step(parts); }
+  ~Divided() { motion_.divide_step(1); }
+  Divided(const Divided &) = delete;
+  Divided &operator=(const Divided &) = delete;
+
+ private:
+  Motion &motion_;
+};
 
 }    // namespace
 
@@ -52,9 +66,23 @@ void RungeKuttaChebyshev::step(Motion &motion, PointStore &store, const StepStar
 {
   const double radius = automatic_ ? stability_.radius(motion, store, mode_vector(), start) : 0;
   load_past(store, start.dt);
-  if (past_.steps() < past_steps()) return start_without_past(motion, start, radius, x);
-  choose_stages(start.dt, radius);
-  chebyshev_.step(motion, start.dt, start.x, start.v, past_, x);
+  const bool starting = past_.steps() < past_steps();
+  const int parts = std::max(starting ? STARTING_PARTS : 1, retakes_ > 0 ? 1 << (retakes_ - 1) : 1);
+  if (parts > 1)
+    step_in_parts(motion, start, radius, parts, x);
+  else {
+    choose_stages(start.dt, radius);
+    chebyshev_.step(motion, start.dt, start.x, start.v, past_, x);
+  }
+  check_growth(start, parts);
+}
+
+/// Points that are driven back faster than what the stages are stable for tell of modes that the
+/// estimate has missed. An estimate that was made at this step is as good as there is.
+void RungeKuttaChebyshev::check_growth(const StepStart &start, int parts)
+{
+  grown_ = automatic_ && !stability_.is_of_step(start.step) &&
+           start.dt / parts * chebyshev_.rate_back() > chebyshev_.stability_limit(stages());
 }
 
 void RungeKuttaChebyshev::load_past(const PointStore &store, double dt)
@@ -67,17 +95,18 @@ void RungeKuttaChebyshev::load_past(const PointStore &store, double dt)
   }
 }
 
-/// Divides the step, so that it is as accurate as those that follow.
-void RungeKuttaChebyshev::start_without_past(Motion &motion, const StepStart &start, double radius,
-                                             Numbers &x)
+/// Each part is of second order. At the start of a run this makes the step as accurate as those
+/// that follow.
+void RungeKuttaChebyshev::step_in_parts(Motion &motion, const StepStart &start, double radius,
+                                        int parts, Numbers &x)
 {
-  constexpr double part = 1.0 / STARTING_PARTS;
-  const double dt = part * start.dt;
+  const double part = 1.0 / parts, dt = part * start.dt;
   const DisplacementHistory none;
+  const Divided divided(motion, retakes_ > 0 ? parts : 1);
   choose_stages(dt, radius);
   x = start.x;
   velocity_ = start.v;
-  for (int n = 0; n < STARTING_PARTS; ++n) {
+  for (int n = 0; n < parts; ++n) {
     if (n > 0) motion.velocity(x, n * part, velocity_);
     scratch_ = x;
     chebyshev_.step(motion, dt, scratch_, velocity_, none, x, n * part, part);
@@ -98,6 +127,8 @@ void RungeKuttaChebyshev::choose_stages(double dt, double radius)
 
 void RungeKuttaChebyshev::accept(PointStore &store, const StepStart &start, const Numbers &x)
 {
+  retakes_ = 0;
+  stability_.accept();
   if (past_steps() == 0) return;
   known_steps_ = std::min(past_.steps() + 1, past_steps());
   for (int n = past_steps() - 1; n > 0; --n) {
@@ -132,6 +163,13 @@ void RungeKuttaChebyshev::restore(const State &state)
   StabilityEstimate::State estimate;
   std::copy_n(state.begin() + past_dt_.size(), estimate.size(), estimate.begin());
   stability_.restore(estimate);
+}
+
+bool RungeKuttaChebyshev::retake()
+{
+  if (!automatic_ || retakes_ == MOST_RETAKES) return false;
+  if (++retakes_ == 1 && !grown_) stability_.raise();
+  return true;
 }
 
 std::size_t RungeKuttaChebyshev::bytes() const

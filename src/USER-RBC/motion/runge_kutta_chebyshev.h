@@ -8,7 +8,8 @@ namespace rbc {
 
 /// Runge-Kutta-Chebyshev method of second order, or of third with the displacements of the last
 /// steps. The number of stages is given or, where it is 0, the fewest that are stable for the
-/// spectral radius.
+/// spectral radius. Then a step that went wrong can be taken again: with more stages for a new
+/// estimate of the radius, and from the second time on in 2, 4, 8 .. equal parts of second order.
 class RungeKuttaChebyshev : public Integrator {
  public:
   RungeKuttaChebyshev(int stages, int order);
@@ -22,12 +23,15 @@ class RungeKuttaChebyshev : public Integrator {
     stability_.start_run(length, continues);
   }
   void points_migrated(const Motion &motion, std::size_t points, const PointStore &store) override;
+  bool has_grown() const override { return grown_; }
+  bool can_retake() const override { return automatic_; }
+  bool retake() override;
   void step(Motion &motion, PointStore &store, const StepStart &start, Numbers &x) override;
   void accept(PointStore &store, const StepStart &start, const Numbers &x) override;
   void reject(const Motion &motion, PointStore &store, const StepStart &start,
               const Numbers &x) override;
   int stages() const override { return chebyshev_.stages(); }
-  double spectral_radius() const override { return stability_.last(); }
+  double spectral_radius() const override { return automatic_ ? stability_.last() : 0; }
   State state() const override;
   void restore(const State &state) override;
   std::size_t bytes() const override;
@@ -36,6 +40,8 @@ class RungeKuttaChebyshev : public Integrator {
   ChebyshevMethod chebyshev_;
   bool automatic_;
   StabilityEstimate stability_;
+  int retakes_ = 0;    ///< of the step that is being taken
+  bool grown_ = false;
 
   // third order
   DisplacementHistory past_;
@@ -47,7 +53,8 @@ class RungeKuttaChebyshev : public Integrator {
   int past_steps() const { return chebyshev_.past_steps(); }
   int mode_vector() const { return past_steps(); }
   void load_past(const PointStore &store, double dt);
-  void start_without_past(Motion &motion, const StepStart &start, double radius, Numbers &x);
+  void step_in_parts(Motion &motion, const StepStart &start, double radius, int parts, Numbers &x);
+  void check_growth(const StepStart &start, int parts);
   void choose_stages(double dt, double radius);
 };
 

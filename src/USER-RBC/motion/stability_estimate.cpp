@@ -1,6 +1,5 @@
 #include "motion/stability_estimate.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace rbc {
@@ -14,6 +13,12 @@ constexpr int SHORTEST_INTERVAL = 5, LONGEST_INTERVAL = 50;
 constexpr double STEADY_CHANGE = 0.01, FAST_CHANGE = 0.03;
 
 constexpr double SAFETY = 1.06, LARGEST_GROWTH = 1.5;
+
+// After a step that went wrong: 1.5 times the stages, and then 1 % fewer in each step.
+
+constexpr double RISE = 2.25, FALL = 0.98;
+constexpr double LARGEST_RISE = 5;    // over the estimate
+
 constexpr double DISPLACEMENT = 1.0e-5;    // over the length that the caller gives
 constexpr int GUESS_ITERATIONS = 20;       // without a mode of an earlier estimate
 constexpr int SUSPECT_ITERATIONS = 10;     // after a step that was refused
@@ -47,7 +52,7 @@ void StabilityEstimate::start_run(double length, bool continues)
   if (doubted_) return;
   radius_step_ = estimated_step_ = -1;
   interval_ = SHORTEST_INTERVAL;
-  raw_radius_ = 0;
+  raw_radius_ = least_ = risen_ = 0;
   suspected_ = false;
 }
 
@@ -55,7 +60,8 @@ double StabilityEstimate::radius(Motion &motion, PointStore &store, int mode_vec
                                  const StepStart &start)
 {
   if (is_due(motion, store, mode_vector, start)) estimate(motion, store, mode_vector, start);
-  return radius_;
+  if (risen_ > 0) least_ = std::min(std::exchange(risen_, 0.0), LARGEST_RISE * radius_);
+  return last();
 }
 
 bool StabilityEstimate::is_due(Motion &motion, const PointStore &store, int mode_vector,
@@ -84,9 +90,11 @@ void StabilityEstimate::estimate(Motion &motion, PointStore &store, int mode_vec
   spectrum_.min_iterations = !known ? GUESS_ITERATIONS : suspected_ ? SUSPECT_ITERATIONS : 1;
   suspected_ = false;
   if (!known) guess(motion, mode_);
-  radius_ = 0;
   radius_step_ = start.step;
-  if (root_mean_square(motion, mode_) == 0) return;    // there are no points
+  if (root_mean_square(motion, mode_) == 0) {    // there are no points
+    radius_ = 0;
+    return;
+  }
 
   const double last = std::exchange(raw_radius_, measure(motion, start));
   foresee(last, start.step);
@@ -126,7 +134,8 @@ StabilityEstimate::State StabilityEstimate::state() const
           double(suspected_),
           double(radius_step_),
           double(estimated_step_),
-          double(interval_)};
+          double(interval_),
+          least_};
 }
 
 void StabilityEstimate::restore(const State &state)
@@ -137,6 +146,17 @@ void StabilityEstimate::restore(const State &state)
   radius_step_ = static_cast<std::int64_t>(state[3]);
   estimated_step_ = static_cast<std::int64_t>(state[4]);
   interval_ = static_cast<int>(state[5]);
+  least_ = state[6];
+}
+
+void StabilityEstimate::raise()
+{
+  risen_ = RISE * last();
+}
+
+void StabilityEstimate::accept()
+{
+  if (least_ > 0) least_ = FALL * least_ > radius_ ? FALL * least_ : 0;
 }
 
 void StabilityEstimate::suspect(const Motion &motion, PointStore &store, int mode_vector,

@@ -3,12 +3,16 @@
 #include "motion/integrator.h"
 #include "motion/spectral_radius.h"
 
+#include <algorithm>
+
 namespace rbc {
 
 /// Spectral radius for which steps must be stable, with a safety margin. It is estimated anew every
 /// few steps, more often if it changes fast. If it has grown since the last estimate, it is
 /// multiplied by the same ratio once more (at most 1.5), for the steps until the next one. The
-/// fastest mode found is kept in a vector of the points; the next estimate starts from it.
+/// fastest mode found is kept in a vector of the points; the next estimate starts from it. Where a
+/// step went wrong the radius rises at once to a multiple of the one that failed, and falls back to
+/// the estimates by 2 % in a step.
 class StabilityEstimate {
  public:
   /// At the start of a run; points are displaced by a small part of `length`. Where a run
@@ -24,10 +28,19 @@ class StabilityEstimate {
   void suspect(const Motion &motion, PointStore &store, int mode_vector, const StepStart &start,
                const Numbers &end);
 
-  double last() const { return radius_; }
+  /// The step is taken again with the same timestep: the radius rises.
+  void raise();
+
+  /// A step counts: a radius that has risen falls.
+  void accept();
+
+  double last() const { return std::max(radius_, least_); }
+
+  /// Whether the last estimate was made at this step.
+  bool is_of_step(std::int64_t step) const { return estimated_step_ == step; }
 
   /// In restart files, with the vector of the mode.
-  static constexpr int STATE = 6;
+  static constexpr int STATE = 7;
   using State = std::array<double, STATE>;
   State state() const;
   void restore(const State &state);
@@ -39,6 +52,8 @@ class StabilityEstimate {
   Numbers mode_, velocity_;
   double displacement_ = 0;
   double radius_ = 0, raw_radius_ = 0;    ///< with a margin; the last estimate as it was
+  double least_ = 0;                      ///< radius in use at least; 0 where no step failed
+  double risen_ = 0;                      ///< what it becomes with the next estimate
   bool suspected_ = false;                ///< the rejected step's growth was added to the mode
   std::int64_t radius_step_ = -1;         ///< of the estimate in use; -1 where a new one is due
   std::int64_t estimated_step_ = -1;      ///< of the last estimate

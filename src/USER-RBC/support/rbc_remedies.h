@@ -1,0 +1,51 @@
+#ifndef LMP_RBC_REMEDIES_H
+#define LMP_RBC_REMEDIES_H
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// What is seen of a step that goes wrong.
+enum class Flaw {
+  too_fast,         ///< a vertex crosses too many fluid cells
+  unstable,         ///< displacements grow as in an unstable step
+  not_finite,       ///< a velocity or an energy is not a number
+  folded,           ///< triangles of a membrane are inverted or folded, or a cell is inside out
+  stretched,        ///< an edge is longer than what the ghost atoms cover
+  left_fluid,       ///< a vertex left the ghost layers of the fluid
+  through_plate,    ///< a vertex is beyond a plate
+  unseen_motion,    ///< vertices moved further than their list of neighbors allows
+  other
+};
+
+/// What a run has already, and numbers that remedies name.
+struct Situation {
+  bool inertia = false;
+  bool chooses_stages = false;    ///< integrator rkc auto
+  bool adapts = false;
+  bool membranes = false, creases = false, limits_stretch = false;    ///< all membranes have it
+  bool lacks_contact = false;                                         ///< there are several cells
+  double timestep = 0, ghost_cutoff = 0, skin = 0;
+};
+
+/// What a user can do about the flaws seen, likeliest first, as the end of a message. Names only
+/// what the run has not; empty if there is nothing to name.
+std::string remedies(const std::vector<Flaw> &seen, const Situation &situation);
+
+/// A fix that has its part in the end of a run with an error.
+class RunEnd {
+ public:
+  /// What can be done about the flaws seen, or nothing.
+  virtual std::string remedies_for(const std::vector<Flaw> & /*seen*/) { return {}; }
+
+  /// Writes a picture of what went wrong, which the message `why` tells. Collective.
+  virtual void write_failure(const std::string & /*why*/) {}
+
+ protected:
+  ~RunEnd() = default;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
