@@ -4,7 +4,6 @@
 #include "cells/rbc_cell_membranes.h"
 #include "cells/rbc_unheld_cells.h"
 #include "comm.h"
-#include "coupling/rbc_kernel_words.h"
 #include "coupling/rbc_motion_restart.h"
 #include "coupling/rbc_wall_group.h"
 #include "error.h"
@@ -24,26 +23,6 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
-// of a fluid without inertia, and of one with inertia, in which stages are of no use
-
-static const char *const DEFAULT_INTEGRATOR = "rkc", *const DEFAULT_WITH_INERTIA = "midpoint";
-
-static const rbc::IntegratorKind *integrator_kind(const std::string &word)
-{
-  for (const rbc::IntegratorKind &kind : rbc::integrator_kinds)
-    if (word == kind.word) return &kind;
-  return nullptr;
-}
-
-/// What the arguments say, as far as the fix itself need not remember it.
-struct FixRBCIB::Settings {
-  ImmersedMarkers::Settings markers;
-  rbc::IntegratorOptions options;
-  const rbc::IntegratorKind *integrator = nullptr;
-  double error_bound = 0, largest_dt = 0, tolerance = 1e-4;
-  int max_solves = 100;
-};
-
 /* ---------------------------------------------------------------------- */
 
 FixRBCIB::FixRBCIB(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), cost(lmp)
@@ -56,70 +35,25 @@ FixRBCIB::FixRBCIB(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), cos
 
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix rbc/ib", error);
   fluid = arg[3];
-  build(read_arguments(narg, arg));
+  auto settings = MotionSettings::read(lmp, narg, arg, 4);
+  takes_default = !settings.integrator && settings.options.order == 2;
+  if (!settings.integrator)
+    settings.integrator = default_integrator(settings.direct || fluid_has_inertia());
+  settings.check(error);
+  build(settings);
 
   if (stored() > 0) create_attribute = 1;
   restart_global = 1;
 }
 
-/* ---------------------------------------------------------------------- */
-
-FixRBCIB::Settings FixRBCIB::read_arguments(int narg, char **arg)
-{
-  Settings settings;
-  Arguments::Choices<const rbc::IntegratorKind *> integrators;
-  for (const rbc::IntegratorKind &kind : rbc::integrator_kinds)
-    integrators.emplace_back(kind.word, &kind);
-
-  Arguments args(lmp, "fix rbc/ib", narg, arg, 4);
-  args.read({{"kernel", [&] { settings.markers.kernel = args.choice(kernel_words); }},
-             {"scheme",
-              [&] {
-                direct = args.choice<bool>({{"elastic", false}, {"direct", true}});
-              }},
-             {"integrator",
-              [&] {
-                settings.integrator = args.choice(integrators);
-                if (!settings.integrator->takes_options) return;
-                args.enter(settings.integrator->word);
-                settings.options.stages = read_stages(args);
-              }},
-             {"order", [&] { settings.options.order = args.whole(2, 3); }},
-             {"tol",
-              [&] {
-                settings.tolerance = args.between(0, 1);
-                iterates = true;
-              }},
-             {"maxiter",
-              [&] {
-                settings.max_solves = args.whole(1, MAXSMALLINT);
-                iterates = true;
-              }},
-             {"courant", [&] { settings.markers.courant = args.positive(); }},
-             {"adapt",
-              [&] {
-                settings.error_bound = args.positive("adapt error");
-                settings.largest_dt = args.positive("adapt largest timestep");
-              }},
-             {"sheets", [&] { sheets = args.logical() ? Sheets::YES : Sheets::NO; }}});
-  default_integrator = !settings.integrator && settings.options.order == 2;
-  if (!settings.integrator) settings.integrator = find_default();
-  if (settings.options.order > 2 && !settings.integrator->takes_options)
-    error->all(FLERR, "Fix rbc/ib order {} needs integrator rkc", settings.options.order);
-  if (sheets == Sheets::YES && direct)
-    error->all(FLERR, "Fix rbc/ib sheets yes needs scheme elastic");
-  return settings;
-}
-
 /* ----------------------------------------------------------------------
-   of the fluid as far as it is known: init() looks again
+   as far as the fluid is known: init() looks again
 ------------------------------------------------------------------------- */
 
-const rbc::IntegratorKind *FixRBCIB::find_default() const
+bool FixRBCIB::fluid_has_inertia() const
 {
   const auto fluid_fix = dynamic_cast<FixRBCFluid *>(modify->get_fix_by_id(fluid));
-  const bool inertia = direct || (fluid_fix && fluid_fix->driven_flow().has_inertia());
-  return integrator_kind(inertia ? DEFAULT_WITH_INERTIA : DEFAULT_INTEGRATOR);
+  return fluid_fix && fluid_fix->driven_flow().has_inertia();
 }
 
 /* ----------------------------------------------------------------------
@@ -128,20 +62,22 @@ const rbc::IntegratorKind *FixRBCIB::find_default() const
 
 void FixRBCIB::update_default()
 {
-  if (!default_integrator || steps->integrator().allows_inertia() == flow->has_inertia()) return;
+  if (!takes_default || steps->integrator().allows_inertia() == flow->has_inertia()) return;
   if (!flow->has_inertia())
     error->all(FLERR,
                "Fix rbc/ib {} was defined for a fluid with inertia, with integrator {}; fix "
                "rbc/fluid {} has none now: define the fix anew, or name an integrator",
-               id, DEFAULT_WITH_INERTIA, fluid);
+               id, default_integrator(true)->word, fluid);
   if (steps->adaptive()) return;    // an error of its own
-  steps->set_integrator(integrator_kind(DEFAULT_WITH_INERTIA)->make({}));
+  steps->set_integrator(default_integrator(true)->make({}));
 }
 
 /* ---------------------------------------------------------------------- */
 
-void FixRBCIB::build(const Settings &settings)
+void FixRBCIB::build(const MotionSettings &settings)
 {
+  sheets = settings.sheets;
+  iterates = settings.iterates;
   courant = settings.markers.courant;
   most_solves = settings.max_solves;
   integrator_code = settings.integrator->code;
@@ -151,26 +87,10 @@ void FixRBCIB::build(const Settings &settings)
   steps =
       std::make_unique<TimeSteps>(lmp, style, *markers, settings.integrator->make(settings.options),
                                   settings.error_bound, settings.largest_dt);
-  if (!direct) return;
+  if (!settings.direct) return;
   masses = std::make_unique<MassiveMarkers>(lmp);
   masses->set_limits(settings.tolerance, settings.max_solves);
   markers->set_masses(masses.get());
-}
-
-/* ----------------------------------------------------------------------
-   0 for auto
-------------------------------------------------------------------------- */
-
-int FixRBCIB::read_stages(Arguments &args) const
-{
-  if (args.take("auto")) return 0;
-  constexpr int least = rbc::ChebyshevMethod::LEAST_STAGES,
-                most = rbc::ChebyshevMethod::MOST_STAGES;
-  const std::string word = args.text();
-  const int stages = utils::is_integer(word) ? utils::inumeric(FLERR, word, false, lmp) : 0;
-  if (stages < least || stages > most)
-    args.fail("Fix rbc/ib rkc stages {} must be auto or from {} to {}", word, least, most);
-  return stages;
 }
 
 /* ----------------------------------------------------------------------
@@ -248,7 +168,7 @@ void FixRBCIB::init()
   if (iterates && !masses && !viscous)
     error->all(FLERR, "Fix rbc/ib tol and maxiter need scheme direct or a fix rbc/membrane with "
                       "viscosity");
-  for (FluidClient *client : clients())
+  for (FluidClient *client : fluid_clients(modify))
     if (client->wall_group()) check_apart(*client->wall_group());
   for (StepPart *pair : pair_step_parts(force)) pair->report_to(markers->stop());
   warn_of_unheld_cells(lmp, fmt::format("Fix rbc/ib {}", id), groupbit);
@@ -316,11 +236,6 @@ bool FixRBCIB::check_order() const
   return late_forces;
 }
 
-std::vector<FluidClient *> FixRBCIB::clients() const
-{
-  return fluid_clients(modify);
-}
-
 /* ---------------------------------------------------------------------- */
 
 bool FixRBCIB::has_sheets() const
@@ -338,7 +253,7 @@ void FixRBCIB::check_moves_all(const CellMembranes &cells) const
 {
   int left_out = 0;
   int moved = groupbit;    // or held
-  for (FluidClient *client : clients())
+  for (FluidClient *client : fluid_clients(modify))
     if (client->wall_group()) moved |= client->wall_group()->groupbit();
   for (int i = 0; i < atom->nlocal; ++i)
     if ((atom->mask[i] & cells.groupbit()) && !(atom->mask[i] & moved)) left_out = 1;

@@ -9,10 +9,10 @@ FixStyle(rbc/ib,FixRBCIB);
 
 #include "coupling/rbc_fluid_client.h"
 #include "coupling/rbc_massive_markers.h"
+#include "coupling/rbc_motion_settings.h"
 #include "coupling/rbc_step_cost.h"
 #include "coupling/rbc_time_steps.h"
 #include "fix.h"
-#include "motion/integrators.h"
 
 #include <memory>
 #include <string>
@@ -48,15 +48,14 @@ class FixRBCIB : public Fix, public FluidClient, public RunEnd {
   std::string remedies_for(const std::vector<Flaw> &) override;
 
  private:
-  enum class Sheets { WITH_MEMBRANES, YES, NO };
+  using Sheets = MotionSettings::Sheets;
 
   std::string fluid;
   Sheets sheets = Sheets::WITH_MEMBRANES;
   double courant = 1;
   int most_solves = 0, integrator_code = 0;
-  bool default_integrator = false;
-  bool direct = false;      // scheme direct
-  bool iterates = false;    // keywords of iterations were given
+  bool takes_default = false;    // no integrator was named
+  bool iterates = false;         // keywords of iterations were given
 
   DrivenFlow *flow = nullptr;
   std::unique_ptr<ImmersedMarkers> markers;
@@ -67,14 +66,10 @@ class FixRBCIB : public Fix, public FluidClient, public RunEnd {
   std::string store_id;
   class FixStoreAtom *store = nullptr;    // numbers kept for each atom
 
-  struct Settings;
-  Settings read_arguments(int, char **);
-  const rbc::IntegratorKind *find_default() const;
+  bool fluid_has_inertia() const;
   void update_default();
-  int read_stages(class Arguments &) const;
-  void build(const Settings &);
+  void build(const MotionSettings &);
   int stored() const;
-  std::vector<FluidClient *> clients() const;
   void check_run() const;
   void check_inertia() const;
   bool check_order() const;

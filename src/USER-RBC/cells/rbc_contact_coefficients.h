@@ -1,4 +1,5 @@
-#pragma once
+#ifndef LMP_RBC_CONTACT_COEFFICIENTS_H
+#define LMP_RBC_CONTACT_COEFFICIENTS_H
 
 #include "contact/contact_laws.h"
 #include "pointers.h"
@@ -56,3 +57,5 @@ class ContactCoefficients : protected Pointers {
 };
 
 }    // namespace LAMMPS_NS
+
+#endif
