@@ -132,11 +132,12 @@ class OtherRanks(unittest.TestCase):
 
 
 class OtherLayouts(unittest.TestCase):
-    """Restart files in which fix rbc/ib keeps other numbers than now: 2 of scheme direct, then 3 and 9 of the steps."""
+    """Restart files in which fix rbc/ib keeps other numbers than now: 2 of scheme direct, then 13 of the steps."""
 
     LINES = dict(ib=SHEAR["ib"].replace("midpoint", "rkc 4 order 3"), timestep="timestep 100",
                  neighbor=SHEAR["neighbor"] + "\nneigh_modify every 1 delay 0 check no")
-    BLOCK = struct.pack("<id", 15 * 8, -1)
+    NUMBERS = 16
+    BLOCK = struct.pack("<id", 8 * NUMBERS, -1)
 
     def continued(self, file):
         again = {**self.LINES, **dict.fromkeys(("style", "boundary", "box", "create_box", "cells", "units"))}
@@ -147,13 +148,15 @@ class OtherLayouts(unittest.TestCase):
         data = whole.path("r").read_bytes()
         self.assertEqual(data.count(self.BLOCK), 1)
         at = data.index(self.BLOCK)
-        numbers = struct.unpack("<15d", data[at + 4:at + 4 + 15 * 8])
+        end = at + 4 + 8 * self.NUMBERS
+        numbers = struct.unpack(f"<{self.NUMBERS}d", data[at + 4:end])
         self.assertEqual(numbers[1:9], (0, 0, 100, 0, 10, 100, 100, 100))
         apart = {}
-        for name, kept in (("before", numbers[1:5] + numbers[6:9]), ("no past", (0,) * 7), ("later", (-2,) * 15)):
+        before = numbers[1:5] + numbers[6:9]
+        for name, kept in (("before", before), ("no past", (0,) * 7), ("later", (-2,) * self.NUMBERS)):
             block = struct.pack(f"<i{len(kept)}d", 8 * len(kept), *kept)
             file = whole.path(name.replace(" ", "_"))
-            file.write_bytes(data[:at] + block + data[at + 4 + 15 * 8:])
+            file.write_bytes(data[:at] + block + data[end:])
             after = self.continued(file)
             if name == "later":
                 self.assertIn("Fix rbc/ib ib: the restart file is of a later version of this package", after.error)

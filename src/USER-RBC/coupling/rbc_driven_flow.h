@@ -94,8 +94,8 @@ class DrivenFlow : public StepPart, protected Pointers {
   void hold_walls();
   void release_walls(bool as_before);
 
-  /// What the next step of a flow without inertia needs to know of those before it, of flow rate and
-  /// walls: for restart files, on rank 0, in `most` numbers at the most. Collective.
+  /// What the next step of a flow without inertia needs to know of those before it, of flow rate
+  /// and walls: for restart files, on rank 0, in `most` numbers at the most. Collective.
   std::vector<double> memory(std::size_t most);
   void remember(const std::vector<double> &memory);
 

@@ -1,5 +1,5 @@
-// The part of DrivenFlow that holds the mean velocity inside a vessel, and keeps what a flow without
-// inertia remembers.
+// The part of DrivenFlow that holds the mean velocity inside a vessel, and keeps what a flow
+// without inertia remembers.
 
 #include "coupling/rbc_driven_flow.h"
 #include "domain.h"

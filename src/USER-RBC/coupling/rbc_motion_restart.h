@@ -11,8 +11,8 @@ namespace LAMMPS_NS {
 class MassiveMarkers;
 class TimeSteps;
 
-/// What the next step of markers needs to know of those before it, in restart files, besides what is
-/// kept for each atom.
+/// What the next step of markers needs to know of those before it, in restart files, besides what
+/// is kept for each atom.
 class MotionRestart : protected Pointers {
  public:
   /// `style` names the fix in errors; `masses` may be null.

@@ -1,5 +1,5 @@
-// The part of RigidWalls that keeps what is known of walls: over evaluations that are taken back, and
-// in restart files.
+// The part of RigidWalls that keeps what is known of walls: over evaluations that are taken back,
+// and in restart files.
 
 #include "coupling/rbc_rigid_walls.h"
 

@@ -102,9 +102,9 @@ void StabilityEstimate::estimate(Motion &motion, PointStore &store, int mode_vec
   store.store(mode_vector, mode_);
 }
 
-/// Starts from the guess mode_, which becomes the mode. start.v is no reference for the differences:
-/// it may belong to forcing of another time, and it contains viscous forces, which are solved for
-/// less exactly than differences need. So the velocities at start.x are evaluated once more without
+/// Starts from the guess mode_, which becomes the mode. start.v is no reference for the
+/// differences: it may belong to forcing of another time, and it contains viscous forces, which are
+/// solved for less exactly than differences need. So the velocities at start.x are evaluated once more without
 /// these forces. Leaving them out is safe: they can only slow relaxation.
 double StabilityEstimate::measure(Motion &motion, const StepStart &start)
 {
