@@ -390,12 +390,12 @@ void FixRBCIB::post_run()
                   "fluid cells, {} MPI task{}\n",
                   solves, step_count, vertices, cells, comm->nprocs, comm->nprocs > 1 ? "s" : "");
   text += table + costs;
-  if (steps->rejected() > 0)
-    text += fmt::format("Steps taken again: {}, {} of them gone wrong\n", steps->rejected(),
-                        steps->failed());
   const double radius = steps->integrator().spectral_radius();
   if (radius > 0)
     text += fmt::format("Timestep times spectral radius: {:.4g}\n", steps->last_dt() * radius);
+  if (steps->rejected() > 0)
+    text += fmt::format("Steps taken again: {}, {} of them gone wrong\n", steps->rejected(),
+                        steps->failed());
   if (steps->failed() > 0) text += fmt::format("The last: {}\n", steps->last_failure());
   utils::logmesg(lmp, text);
   warn();

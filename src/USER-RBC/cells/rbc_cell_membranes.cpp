@@ -92,7 +92,7 @@ void CellMembranes::update_ownership()
 
 void CellMembranes::warn_of_torn_cells()
 {
-  const LocalCells::Stretch stretch = cells_.largest_stretch();
+  const CellImages::Stretch stretch = cells_.largest_stretch();
   if (stretch.ratio > TORN && comm->me == 0)
     error->warning(FLERR,
                    "{}: an edge of the cell with molecule ID {} is {:.3g} times as long as in its "

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 using namespace LAMMPS_NS;
 using rbc::Vec3;
@@ -16,7 +17,7 @@ using rbc::Vec3;
 LocalCells::LocalCells(LAMMPS *lmp, const rbc::SurfaceTemplate &shape, int groupbit,
                        std::string style) :
     Pointers(lmp),
-    shape(shape), groupbit(groupbit), style(std::move(style)), joined(shape),
+    shape(shape), groupbit(groupbit), style(std::move(style)), images(lmp, shape, this->style),
     whole(rbc::CellElements::whole(shape))
 {
 }
@@ -28,6 +29,7 @@ void LocalCells::identify()
   if (atom->map_style == Atom::MAP_NONE)
     error->all(FLERR, "{} requires an atom map, see atom_modify", style);
 
+  starts_run = true;
   molecule_ids.clear();
   first_ids.clear();
   index_of.clear();
@@ -124,7 +126,7 @@ void LocalCells::update_ownership(bool bending)
   }
   stop.check();
   find_shared(is_part);
-  put_together();
+  find_images(std::exchange(starts_run, false));
   set_origins();
 }
 
@@ -229,139 +231,12 @@ void LocalCells::find_shared(const std::vector<char> &is_part)
           std::lower_bound(shared.begin(), shared.end(), local[c].index) - shared.begin());
 }
 
-/* ----------------------------------------------------------------------
-   Image flags of the first vertex tell in which box a cell is. Those of the others are not used:
-   LAMMPS's flags begin anew beyond a number of boxes, and what was read may have none. A rank that
-   has not got the first vertex continues from vertices that other ranks have placed.
-------------------------------------------------------------------------- */
-
-void LocalCells::put_together()
+void LocalCells::find_images(bool starts_run)
 {
-  const std::size_t size = shape.vertex_count();
-  offsets.assign(atoms.size(), Vec3::Zero());
-  placed.assign(atoms.size(), 0);
-  Vec3 periods = Vec3::Zero();
-  for (int d = 0; d < 3; ++d)
-    if (domain->periodicity[d]) periods[d] = domain->prd[d];
-  joined.set_periods(periods);
-
-  for (std::size_t c = 0; c < local.size(); ++c) {
-    local[c].offset = &offsets[c * size];
-    if (!local[c].elements->owned[0]) continue;
-    double zero[3] = {0, 0, 0};
-    domain->unmap(zero, atom->image[atoms[c * size]], offsets[c * size].data());
-    placed[c * size] = 1;
-    joined.join(vertices(c));
-  }
-  bigint before = MAXBIGINT;
-  for (bigint missing = count_missing(); missing > 0; missing = count_missing()) {
-    if (missing >= before)
-      error->all(FLERR,
-                 "{}: parts of cells on different MPI tasks do not meet; raise the ghost "
-                 "cutoff with comm_modify cutoff",
-                 style);
-    before = missing;
-    take_from_neighbors(periods);
-  }
-  check_edges();
-}
-
-/* ----------------------------------------------------------------------
-   the result is valid until the next call
-------------------------------------------------------------------------- */
-
-rbc::JoinedVertices::Cell LocalCells::vertices(std::size_t c)
-{
-  const int size = shape.vertex_count();
-  const int *const known = &atoms[c * size];
-  wrapped.resize(size);
-  is_known.resize(size);
-  for (int v = 0; v < size; ++v) {
-    is_known[v] = known[v] >= 0;
-    if (is_known[v]) wrapped[v] = Vec3(atom->x[known[v]]);
-  }
-  return {wrapped.data(), is_known.data(), &placed[c * size], &offsets[c * size]};
-}
-
-bigint LocalCells::count_missing() const
-{
-  if (comm->nprocs == 1) return 0;
-  bigint missing = 0;
-  for (std::size_t n = 0; n < atoms.size(); ++n) missing += atoms[n] >= 0 && !placed[n];
-  MPI_Allreduce(MPI_IN_PLACE, &missing, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  return missing;
-}
-
-/* ----------------------------------------------------------------------
-   positions of ghosts as their owners have placed them, infinite where they have not
-------------------------------------------------------------------------- */
-
-void LocalCells::take_from_neighbors(const Vec3 &periods)
-{
-  const int all = atom->nlocal + atom->nghost, size = shape.vertex_count();
-  unwrapped.assign(3 * std::size_t(all), HUGE_VAL);
-  unwrapped_rows.resize(all);
-  for (int i = 0; i < all; ++i) unwrapped_rows[i] = &unwrapped[3 * std::size_t(i)];
-  for (std::size_t n = 0; n < atoms.size(); ++n) {
-    const int i = atoms[n];
-    if (i < 0 || i >= atom->nlocal || !placed[n]) continue;
-    for (int d = 0; d < 3; ++d) unwrapped_rows[i][d] = atom->x[i][d] + offsets[n][d];
-  }
-  comm->forward_comm_array(3, unwrapped_rows.data());
-
-  for (std::size_t c = 0; c < local.size(); ++c) {
-    if (local[c].shared < 0) continue;
-    for (int v = 0; v < size; ++v) {
-      const std::size_t n = c * size + v;
-      const int i = atoms[n];
-      if (i < 0 || placed[n] || unwrapped_rows[i][0] == HUGE_VAL) continue;
-      for (int d = 0; d < 3; ++d)
-        if (periods[d] > 0)
-          offsets[n][d] =
-              std::round((unwrapped_rows[i][d] - atom->x[i][d]) / periods[d]) * periods[d];
-      placed[n] = 1;
-    }
-    joined.join(vertices(c));
-  }
-}
-
-/* ----------------------------------------------------------------------
-   the nearest image is the right one as long as edges are shorter than half of the box
-------------------------------------------------------------------------- */
-
-void LocalCells::check_edges()
-{
-  CollectiveStop stop(lmp);
-  for (std::size_t c = 0; c < local.size(); ++c) {
-    const rbc::JoinedVertices::Edge edge = joined.widest(vertices(c));
-    if (edge.ratio <= 1 + 1e-9) continue;
-    const tagint first = first_ids[local[c].index];
-    const Vec3 &near = wrapped[edge.a];
-    stop.report(fmt::format(
-        "{}: the cell with molecule ID {} near ({:.6g}, {:.6g}, {:.6g}) cannot be put together "
-        "across the sides of the box at step {}: atoms {} and {} share an edge and are more than "
-        "half of the box apart",
-        style, molecule_ids[local[c].index], near[0], near[1], near[2], update->ntimestep,
-        first + edge.a, first + edge.b));
-  }
-  stop.check();
-}
-
-LocalCells::Stretch LocalCells::largest_stretch()
-{
-  double ratio = 0;
-  tagint molecule = MAXTAGINT;
-  for (std::size_t c = 0; c < local.size(); ++c) {
-    const rbc::JoinedVertices::Edge edge = joined.most_stretched(vertices(c));
-    if (edge.ratio <= ratio) continue;
-    ratio = edge.ratio;
-    molecule = molecule_ids[local[c].index];
-  }
-  double largest;
-  MPI_Allreduce(&ratio, &largest, 1, MPI_DOUBLE, MPI_MAX, world);
-  if (ratio < largest) molecule = MAXTAGINT;
-  MPI_Allreduce(MPI_IN_PLACE, &molecule, 1, MPI_LMP_TAGINT, MPI_MIN, world);
-  return {largest, molecule};
+  if (starts_run) images.correct_flags(*this);
+  images.find_offsets(*this, offsets);
+  for (std::size_t c = 0; c < local.size(); ++c)
+    local[c].offset = &offsets[c * shape.vertex_count()];
 }
 
 /* ----------------------------------------------------------------------

@@ -1,7 +1,7 @@
 #ifndef LMP_RBC_LOCAL_CELLS_H
 #define LMP_RBC_LOCAL_CELLS_H
 
-#include "geometry/joined_vertices.h"
+#include "cells/rbc_cell_images.h"
 #include "lmptype.h"
 #include "membrane/membrane_model.h"
 #include "pointers.h"
@@ -14,8 +14,7 @@ namespace LAMMPS_NS {
 
 /// The cells made from one template in a group, and what this rank holds of them. A vertex is known
 /// by its atom ID: those of a cell are consecutive, in the order of the template. Cells are
-/// numbered in order of molecule ID. In a periodic box a vertex is next to those with which it
-/// shares an edge, whatever its image flags.
+/// numbered in order of molecule ID.
 class LocalCells : protected Pointers {
  public:
   /// One cell of which this rank owns a vertex.
@@ -58,12 +57,11 @@ class LocalCells : protected Pointers {
   /// several ranks share. The values of other cells stay as they are.
   void sum_shared(std::vector<double> &values, int width);
 
-  struct Stretch {
-    double ratio;       ///< of an edge to its length in the template
-    tagint molecule;    ///< of the cell that has it
-  };
-  /// Of the edge of all cells that is stretched most. Collective, after update_ownership().
-  Stretch largest_stretch();
+  /// Whether ranks share cells; the same on all of them.
+  bool has_shared() const { return !shared.empty(); }
+
+  /// The edge of all cells that is stretched most. Collective, after update_ownership().
+  CellImages::Stretch largest_stretch() { return images.largest_stretch(*this); }
 
  private:
   /// Atoms of a molecule: lowest and highest ID, and how many.
@@ -84,29 +82,19 @@ class LocalCells : protected Pointers {
   std::vector<Cell> local;
   std::vector<int> atoms;
   std::vector<rbc::Vec3> offsets;
-  rbc::JoinedVertices joined;
-  std::vector<char> placed;    ///< whether a vertex' offset is known
+  CellImages images;
+  bool starts_run = true;    ///< the next update_ownership() is the first one of a run
   rbc::CellElements whole;
   std::vector<rbc::CellElements> parts;
   std::vector<int> shared;    ///< cells that several ranks share, the same on all ranks
   std::vector<double> buffer;
-  std::vector<double> unwrapped;    ///< positions of all atoms here, if there are several ranks
-  std::vector<double *> unwrapped_rows;
-
-  // of the current cell
-  std::vector<rbc::Vec3> wrapped;
-  std::vector<char> is_known;
 
   std::vector<Extent> find_extents() const;
   void check_complete(const std::vector<int> &owned_count) const;
   void find_neighbors(std::size_t at, tagint first, const std::vector<char> &owned, int rings);
   void check_neighbors(std::size_t c, int rings, CollectiveStop &stop) const;
   void find_shared(const std::vector<char> &is_part);
-  void put_together();
-  rbc::JoinedVertices::Cell vertices(std::size_t c);
-  bigint count_missing() const;
-  void take_from_neighbors(const rbc::Vec3 &periods);
-  void check_edges();
+  void find_images(bool starts_run);
   void set_origins();
 };
 
