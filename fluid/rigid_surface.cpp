@@ -19,8 +19,8 @@ constexpr double sure = 0.8;
 // slip is the compliance of the markers, which iterations cannot lower.
 constexpr double negligible = 0.3;
 
-// Factor by which the use of a direction in the past counts less with each iteration.
-constexpr double memory = 0.95;
+// Factor by which the use of a direction in the past counts less with each evaluation.
+constexpr double memory = 0.8;
 
 constexpr double longest = 4;    ///< steps along the preconditioned residual, and their inverse
 
@@ -178,8 +178,9 @@ RigidSurface::Outcome RigidSurface::enforce(Flow &flow)
       continue;
     }
     if (outcome.converged || outcome.solves >= settings_.max_solves) break;
+    const bool first = outcome.solves == 1;
     ++outcome.solves;
-    if (!improve(flow, limit)) break;
+    if (!improve(flow, limit, first)) break;
   }
   add_mean(flow, mean_change);
   return outcome;
@@ -196,9 +197,9 @@ void RigidSurface::add_mean(Flow &flow, Real3 &change)
 
 /// One solve along the best combination of the directions known and, if that is not enough, along a
 /// new direction as well. Returns false when round-off hides how the flow responds to the new one.
-bool RigidSurface::improve(Flow &flow, const Limit &limit)
+bool RigidSurface::improve(Flow &flow, const Limit &limit, bool first)
 {
-  combine_known_directions(flow);
+  combine_known_directions(flow, first);
   direction_ = change_ + compliance_;
   double left[2]{largest_row(change_), largest_row(direction_)};
   reduce(left, 2, MPI_MAX, flow);
@@ -222,8 +223,9 @@ bool RigidSurface::improve(Flow &flow, const Limit &limit)
 }
 
 /// Sets step_ to the best combination of the directions known, and change_ to the residual that it
-/// leaves.
-void RigidSurface::combine_known_directions(const Flow &flow)
+/// leaves. Directions count as used by what they take off the first residual of an evaluation; all
+/// that they take off later ones is round-off.
+void RigidSurface::combine_known_directions(const Flow &flow, bool first)
 {
   const auto known = directions_.leftCols(known_), responses = responses_.leftCols(known_);
   auto shares = shares_.head(known_);
@@ -232,7 +234,8 @@ void RigidSurface::combine_known_directions(const Flow &flow)
   step_.noalias() = known * shares;
   change_.noalias() = residual_ - responses * shares;
   const double square = shares.squaredNorm();
-  if (square > 0) use_.head(known_) = memory * use_.head(known_) + shares.cwiseAbs2() / square;
+  if (first && square > 0)
+    use_.head(known_) = memory * use_.head(known_) + shares.cwiseAbs2() / square;
   if (settings_.free_mean) rows(change_).colwise() -= uniform_part(flow, change_);
 }
 

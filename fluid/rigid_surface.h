@@ -141,8 +141,8 @@ class RigidSurface {
     bool holds(double residual, double slip) const;
   };
 
-  bool improve(Flow &flow, const Limit &limit);
-  void combine_known_directions(const Flow &flow);
+  bool improve(Flow &flow, const Limit &limit, bool first);
+  void combine_known_directions(const Flow &flow, bool first);
   double find_new_direction(const Flow &flow);
   void apply_step(Flow &flow);
   void precondition(const Flow &flow, const Vector &velocity, Vector &force);

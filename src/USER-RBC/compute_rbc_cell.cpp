@@ -122,7 +122,7 @@ void ComputeRBCCell::warn_of_jump(const double *row, const Vec3 &centre)
       error->warning(FLERR,
                      "Compute rbc/cell {}: the centre of the cell with molecule ID {} jumped by {} "
                      "lengths of the box in {} before step {}: image flags go from {} to {} only",
-                     id, cells.molecules()[n], 2 * IMGMAX, "xyz"[d], update -> ntimestep, -IMGMAX,
+                     id, cells.molecules()[n], 2 * IMGMAX, "xyz"[d], update->ntimestep, -IMGMAX,
                      IMGMAX - 1);
     return;
   }

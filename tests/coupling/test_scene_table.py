@@ -50,7 +50,7 @@ class Numbers(unittest.TestCase):
         # half a skin, a cell in a step, kernel, differences of sheets
         self.assertRegex(result.printed, r"scene: 10 x 10 x 10 fluid cells, spacing 1.2, neighbor skin 1 spacings, "
                          rf"{int(np.ceil(0.5 + 1)) + 2 + 1} ghost layers")
-        self.assertIn("Plates: shear rate 0.0001; nothing repels cells from them", result.printed)
+        self.assertIn("Plates: shear rate 0.0001; no fix wall repels cells from them", result.printed)
         self.assertEqual(warnings(result), [])
 
     def test_in_other_units(self):
@@ -93,7 +93,7 @@ class Numbers(unittest.TestCase):
         _, _, volume = edges_and_volume("rbc_162.mol")
         radius = (0.75 / np.pi * volume)**(1 / 3)
         np.testing.assert_allclose(rows(result)["mem"][5], 1.5 * 5e-4 / 6 * radius / 0.005654, rtol=5e-3)
-        self.assertIn("Walls: fix rbc/wall ball; nothing repels cells from them", result.printed)
+        self.assertIn("Walls: fix rbc/wall ball; no fix wall repels cells from them", result.printed)
 
     def test_timestep_times_spectral_radius(self):
         result = run(scene(ib="fix ib all rbc/ib flow integrator rkc auto",

@@ -1,5 +1,5 @@
-// Arguments of each style, in a LAMMPS of its own each time. The first letter chooses the style, the rest of the line
-// are its arguments. They must be taken, or refused with an error of LAMMPS.
+// Arguments of each style, in a LAMMPS of its own each time. The first letter chooses the style,
+// the rest of the line are its arguments. They must be taken, or refused with an error of LAMMPS.
 
 #include "exceptions.h"
 #include "input.h"

@@ -1,5 +1,5 @@
-// Molecule templates: lines `v x y z` are vertices, lines `f a b c` triangles, as in the file format of Wavefront. What
-// is no closed surface must be refused.
+// Molecule templates: lines `v x y z` are vertices, lines `f a b c` triangles, as in the file
+// format of Wavefront. What is no closed surface must be refused.
 
 #include "geometry/surface_template.h"
 #include "membrane/membrane_model.h"

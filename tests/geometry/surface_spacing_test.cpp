@@ -11,7 +11,8 @@ namespace {
 constexpr double reach = 6;
 const PackingBox box{Vec3(-1, 2, 0), Vec3(24, 24, 24), {true, true, false}};
 
-/// Points a x, b y apart in a plane, every second row shifted by `shift` along x; periodic in the box.
+/// Points a x, b y apart in a plane, every second row shifted by `shift` along x; periodic in the
+/// box.
 std::vector<Vec3> lattice(double a, double b, double shift)
 {
   std::vector<Vec3> points;

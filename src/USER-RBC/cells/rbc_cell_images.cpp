@@ -156,12 +156,12 @@ void CellImages::correct_flags(LocalCells &cells)
 imageint CellImages::flags_of(const Vec3 &shift, imageint old) const
 {
   imageint flags = 0;
-  constexpr int shifts[3] = {0, IMGBITS, IMG2BITS};
+  constexpr int bits[3] = {0, IMGBITS, IMG2BITS};
   for (int d = 0; d < 3; ++d) {
-    imageint boxes = (old >> shifts[d]) & IMGMASK;
+    imageint boxes = (old >> bits[d]) & IMGMASK;
     if (domain->periodicity[d])
       boxes = (static_cast<imageint>(std::lround(shift[d] / domain->prd[d])) + IMGMAX) & IMGMASK;
-    flags |= boxes << shifts[d];
+    flags |= boxes << bits[d];
   }
   return flags;
 }
@@ -192,31 +192,48 @@ void CellImages::find_offsets(LocalCells &cells, std::vector<Vec3> &offsets)
   offsets.assign(local.size() * size, Vec3::Zero());
   const double *const *const boxes_of = find_boxes(cells.has_shared());
 
-  // in each direction: vertices far below, far above, and the first one far below
-  std::vector<double> counts(9 * local.size());
-  for (std::size_t c = 0; c < local.size(); ++c) {
-    for (int v = 0; v < size; ++v) {
-      if (!local[c].elements->owned[v]) continue;
-      for (int d = 0; d < 3; ++d) {
-        const double n = boxes_of[local[c].atom[v]][d];
-        counts[9 * c + d] += n < -IMGMAX / 2;
-        counts[9 * c + 3 + d] += n > IMGMAX / 2;
-        counts[9 * c + 6 + d] += v == 0 && n < -IMGMAX / 2;
-      }
-    }
-  }
-  cells.sum_shared(counts, 9);
-
+  const auto counts = count_far(cells, boxes_of);
+  constexpr double near[9] = {};
   for (std::size_t c = 0; c < local.size(); ++c)
     for (int v = 0; v < size; ++v) {
       if (local[c].atom[v] < 0) continue;
       for (int d = 0; d < 3; ++d) {
-        const double *const count = &counts[9 * c + d];
+        const double *const count = counts.empty() ? near : &counts[9 * c + d];
         double n = boxes_of[local[c].atom[v]][d];
         if (count[0] > 0 && count[3] > 0) n += 2 * IMGMAX * ((n < -IMGMAX / 2) - (count[6] > 0));
         offsets[c * size + v][d] = n * domain->prd[d];
       }
     }
+}
+
+/* ----------------------------------------------------------------------
+   Returns for each cell and direction how many vertices are far below and far above, and whether
+   the first one is far below: nine numbers a cell, or none if no vertex is far on any rank.
+------------------------------------------------------------------------- */
+
+std::vector<double> CellImages::count_far(LocalCells &cells, const double *const *boxes_of)
+{
+  const int size = shape.vertex_count();
+  const auto &local = cells.cells();
+  std::vector<double> counts(9 * local.size());
+  int is_far = 0;
+  for (std::size_t c = 0; c < local.size(); ++c)
+    for (int v = 0; v < size; ++v) {
+      if (!local[c].elements->owned[v]) continue;
+      for (int d = 0; d < 3; ++d) {
+        const double n = boxes_of[local[c].atom[v]][d];
+        const bool below = n<-IMGMAX / 2, above = n> IMGMAX / 2;
+        if (!below && !above) continue;
+        is_far = 1;
+        counts[9 * c + d] += below;
+        counts[9 * c + 3 + d] += above;
+        counts[9 * c + 6 + d] += v == 0 && below;
+      }
+    }
+  if (cells.has_shared()) MPI_Allreduce(MPI_IN_PLACE, &is_far, 1, MPI_INT, MPI_MAX, world);
+  if (!is_far) return {};
+  cells.sum_shared(counts, 9);
+  return counts;
 }
 
 /* ----------------------------------------------------------------------

@@ -42,7 +42,7 @@ class CellImages : protected Pointers {
 
   // entries as `offsets`
   std::vector<rbc::Vec3> shifts;
-  std::vector<char> placed;    ///< whether a vertex' shift is known
+  std::vector<char> placed;    ///< whether the shift of a vertex is known
 
   std::vector<double> numbers;    ///< three for each atom
   std::vector<double *> rows;
@@ -59,6 +59,7 @@ class CellImages : protected Pointers {
   imageint flags_of(const rbc::Vec3 &shift, imageint old) const;
   void warn_of_corrections(LocalCells &cells, std::vector<double> &corrected);
   const double *const *find_boxes(bool of_ghosts);
+  std::vector<double> count_far(LocalCells &cells, const double *const *boxes_of);
 };
 
 }    // namespace LAMMPS_NS

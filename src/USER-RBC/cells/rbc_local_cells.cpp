@@ -94,6 +94,13 @@ void LocalCells::update_ownership(bool bending)
       continue;
     }
     const int index = found->second;
+    const tagint vertex = atom->tag[i] - first_ids[index];
+    if (vertex < 0 || vertex >= size) {
+      stop.report(
+          fmt::format("{}: atom {} was not of the cell with molecule ID {} at the start of the run",
+                      style, atom->tag[i], atom->molecule[i]));
+      continue;
+    }
     if (slot[index] < 0) {
       slot[index] = static_cast<int>(local.size());
       local.push_back({index, nullptr, nullptr, nullptr, Vec3::Zero(), -1});
@@ -101,7 +108,7 @@ void LocalCells::update_ownership(bool bending)
       atoms.resize(atoms.size() + size, -1);
     }
     ++owned_count[slot[index]];
-    atoms[std::size_t(slot[index]) * size + (atom->tag[i] - first_ids[index])] = i;
+    atoms[std::size_t(slot[index]) * size + vertex] = i;
   }
 
   stop.check();

@@ -238,7 +238,10 @@ void DrivenFlow::solve(CollectiveStop &stop, bool with_walls)
 {
   const bool walls = walls_ && with_walls;
   fluid::Forcing uniform = forcing_now_;
-  if (walls) spread_walls(uniform, stop);
+  if (walls) {
+    if (stop.trying) stop.check();    // wrong forces must not get into what walls remember
+    spread_walls(uniform, stop);
+  }
   if (flow_->has_force()) {
     stop.check();
     exchanging_.start();

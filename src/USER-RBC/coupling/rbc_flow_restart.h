@@ -29,7 +29,8 @@ class FlowRestart : protected Pointers {
 
   /// Without inertia.
   static bool is_of_steady_flow(const char *buffer);
-  static constexpr std::size_t MOST_REMEMBERED = MAXSMALLINT / sizeof(double) - 2;
+  /// Numbers of write_memory() at most: every rank reads all of them.
+  static constexpr std::size_t MOST_REMEMBERED = std::size_t(1) << 24;
   void write_memory(FILE *fp, const std::vector<double> &memory) const;
   std::vector<double> read_memory(const char *buffer) const;
 

@@ -15,9 +15,9 @@ using namespace LAMMPS_NS;
 static constexpr int KERNEL_LAYERS = 2;
 
 /* ----------------------------------------------------------------------
-   A vertex leaves the subdomain of its rank by up to half the skin before atoms migrate, and by more
-   within a step; besides, a cell belongs to the subdomain of its centre, not of all of its volume.
-   cells_per_step allows for both.
+   A vertex leaves the subdomain of its rank by up to half the skin before atoms migrate, and by
+   more within a step; besides, a cell belongs to the subdomain of its centre, not of all of its
+   volume. cells_per_step allows for both.
 ------------------------------------------------------------------------- */
 
 int LAMMPS_NS::marker_layers(LAMMPS *lmp, const std::string &style, const std::array<int, 3> &cells,

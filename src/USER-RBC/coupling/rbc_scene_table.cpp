@@ -203,7 +203,7 @@ std::string SceneTable::boundaries(const DrivenFlow &flow) const
   if (flow.settings().plates) text += fmt::format("Plates: shear rate {:.3g}", shear_rate_);
   if (flow.walls()) text += (text.empty() ? "Walls: " : "; walls: ") + flow.walls()->names();
   if (text.empty()) return text;
-  return text + (repelling_.empty() ? "; nothing repels cells from them\n"
+  return text + (repelling_.empty() ? "; no fix wall repels cells from them\n"
                                     : "; cells are repelled by " + repelling_ + "\n");
 }
 

@@ -207,6 +207,13 @@ bool TimeSteps::step_is_accepted()
   return false;
 }
 
+/// Errors end a trial, not the run, while it lives.
+struct Trying {
+  bool &on;
+  explicit Trying(bool &flag) : on(flag) { on = true; }
+  ~Trying() { on = false; }
+};
+
 /* ----------------------------------------------------------------------
    false if something went wrong
 ------------------------------------------------------------------------- */
@@ -216,8 +223,8 @@ bool TimeSteps::try_step()
   const std::size_t before = seen_.size();
   X_new_ = X_;
   velocities_known_ = false;
-  markers_.stop()->trying = true;
   try {
+    const Trying trying(markers_.stop()->trying);
     take_step();
     if (control_.active()) {
       measure_error();
@@ -231,12 +238,14 @@ bool TimeSteps::try_step()
     }
   } catch (const rbc::StepFailure &failure) {
     const std::string what = fmt::format("{}: {} at step {}", style_, failure.what(), step());
-    if (!control_.active()) markers_.stop()->end_run(what, {Flaw::too_fast});
+    if (!control_.active()) {
+      seen_.push_back(Flaw::too_fast);
+      markers_.stop()->end_run(tries_ == 1 ? what : last_failure_ + "; then " + what, seen_);
+    }
     note_failure(what, Flaw::other);
   } catch (const CollectiveStop::FailedTrial &failure) {
     note_failure(failure.what(), failure.flaw);
   }
-  markers_.stop()->trying = false;
   if (seen_.size() == before) return true;
   if (control_.active()) next_dt_ = control_.after_failure(update->dt);
   return false;
@@ -247,8 +256,6 @@ void TimeSteps::note_failure(const std::string &what, Flaw flaw)
   last_failure_ = what;
   seen_.push_back(flaw);
 }
-
-/* ---------------------------------------------------------------------- */
 
 /* ----------------------------------------------------------------------
    forces at the end of a step are LAMMPS's, and come too late to take the step again: they are

@@ -84,7 +84,7 @@ class TimeSteps : protected Pointers {
   rbc::Numbers X_, V_, X_new_, V_new_, scratch_;
   double last_dt_ = 0, next_dt_ = 0, local_error_ = 0;
   bool restarted_ = false;    ///< and no run has begun since
-  /// measure_error() has computed the velocities at the end of the step: finish() need not.
+  /// The atoms hold the velocities at the end of the step already: finish() need not compute them.
   bool velocities_known_ = false;
   bigint rejected_ = 0, failed_ = 0;
   std::string last_failure_;

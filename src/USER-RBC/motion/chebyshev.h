@@ -40,8 +40,9 @@ class ChebyshevMethod {
 
   /// Of the last step(): the rate at which the points are driven back to where they came from,
   ///   - dX . dV / dX . dX
-  /// with the changes of positions and velocities from the start to the last stage. In a motion that
-  /// relaxes it is not above the spectral radius, and near it only if the fastest modes have grown.
+  /// with the changes of positions and velocities from the start to the last stage. In a motion
+  /// that relaxes it is not above the spectral radius, and near it only if the fastest modes have
+  /// grown.
   double rate_back() const { return rate_back_; }
 
   std::size_t bytes() const;

@@ -48,7 +48,8 @@ class Integrator {
 
   /// Whether it may advance points in a fluid with inertia, whose velocities at the start of a step
   /// are those of the middle of the last step. There a call of velocity() or velocity_at_start()
-  /// makes the fluid's step: only a method may that makes just one call, for the middle of the step.
+  /// makes the fluid's step: only a method may that makes just one call, for the middle of the
+  /// step.
   virtual bool allows_inertia() const { return false; }
 
   /// Number of vectors that it keeps for each point in the PointStore.

@@ -104,8 +104,8 @@ void StabilityEstimate::estimate(Motion &motion, PointStore &store, int mode_vec
 
 /// Starts from the guess mode_, which becomes the mode. start.v is no reference for the
 /// differences: it may belong to forcing of another time, and it contains viscous forces, which are
-/// solved for less exactly than differences need. So the velocities at start.x are evaluated once more without
-/// these forces. Leaving them out is safe: they can only slow relaxation.
+/// solved for less exactly than differences need. So the velocities at start.x are evaluated once
+/// more without these forces. Leaving them out is safe: they can only slow relaxation.
 double StabilityEstimate::measure(Motion &motion, const StepStart &start)
 {
   const Estimating estimating(motion);
