@@ -433,7 +433,8 @@ std::string FixRBCIB::remedies_for(const std::vector<Flaw> &seen)
     now.creases = now.creases && membranes->parameters().crease.stiffness > 0;
     now.limits_stretch = now.limits_stretch && membranes->parameters().stretch.stiffness > 0;
   }
-  now.lacks_contact = cells > 1 && pair_step_parts(force).empty();
+  now.several_cells = cells > 1;
+  now.lacks_contact = now.several_cells && pair_step_parts(force).empty();
   now.timestep = update->dt;
   now.ghost_cutoff = comm->get_comm_cutoff();
   now.skin = neighbor->skin;

@@ -10,7 +10,6 @@
 #include "modify.h"
 #include "neighbor.h"
 #include "pair.h"
-#include "support/rbc_arguments.h"
 #include "update.h"
 
 #include <algorithm>
@@ -46,54 +45,66 @@ MembraneSettings FixRBCMembrane::parse(int narg, char **arg)
 
   Arguments args(lmp, "fix rbc/membrane", narg, arg, 4);
   elastic.law = read_law(args);
-  args.read(
-      {{"bending", [&] { read_bending(args, elastic); }},
-       {"area",
-        [&] {
-          elastic.global_area = args.not_negative("area kglobal");
-          elastic.local_area = args.not_negative("area klocal");
-        }},
-       {"volume", [&] { read_volume(args, settings); }},
-       {"swell",
-        [&] {
-          settings.swelling = Swelling(args.number_or_variable(), lmp);
-          if (!(settings.swelling.varies() || settings.swelling.now() > 0))
-            args.fail("Fix rbc/membrane swell value {} must be > 0", settings.swelling.now());
-        }},
-       {"stress-free",
-        [&] {
-          take_stress_free_shape(lmp, *settings.surface, arg[3], args.text(), "fix rbc/membrane");
-        }},
-       {"viscosity", [&] { settings.viscosity = read_viscosity(args); }},
-       {"crease",
-        [&] {
-          elastic.crease.stiffness = args.not_negative("crease k");
-          const double angle = args.positive("crease angle");
-          if (angle >= 180)
-            args.fail("Fix rbc/membrane crease angle value {} must be below 180 degrees", angle);
-          elastic.crease.cosine = cos(angle * MathConst::DEG2RAD);
-        }},
-       {"stretch", [&] {
-          elastic.stretch.stiffness = args.not_negative("stretch k");
-          const double stretch = args.positive("stretch lambda");
-          if (stretch <= 1)
-            args.fail("Fix rbc/membrane stretch lambda value {} must be above 1", stretch);
-          elastic.stretch.i1 = stretch * stretch + 1 / (stretch * stretch);
-        }}});
+  std::vector<Arguments::Keyword> keywords{
+      {"bending", [&] { read_bending(args, elastic); }},
+      {"area",
+       [&] {
+         elastic.global_area = args.not_negative("area kglobal");
+         elastic.local_area = args.not_negative("area klocal");
+       }},
+      {"volume", [&] { read_volume(args, settings); }},
+      {"swell",
+       [&] {
+         settings.swelling = Swelling(args.number_or_variable(), lmp);
+         if (!(settings.swelling.varies() || settings.swelling.now() > 0))
+           args.fail("Fix rbc/membrane swell value {} must be > 0", settings.swelling.now());
+       }},
+      {"stress-free",
+       [&] {
+         take_stress_free_shape(lmp, *settings.surface, arg[3], args.text(), "fix rbc/membrane");
+       }},
+      {"viscosity", [&] { settings.viscosity = read_viscosity(args); }}};
+  for (Arguments::Keyword &keyword : limits(args, elastic)) keywords.push_back(keyword);
+  args.read(keywords);
   check_settings(settings);
   return settings;
 }
 
 /* ---------------------------------------------------------------------- */
 
+std::vector<Arguments::Keyword> FixRBCMembrane::limits(Arguments &args,
+                                                       rbc::MembraneParameters &elastic)
+{
+  return {{"crease",
+           [&] {
+             elastic.crease.stiffness = args.not_negative("crease k");
+             const double angle = args.positive("crease angle");
+             if (angle >= 180)
+               args.fail("Fix rbc/membrane crease angle value {} must be below 180 degrees", angle);
+             elastic.crease.cosine = cos(angle * MathConst::DEG2RAD);
+           }},
+          {"stretch", [&] {
+             elastic.stretch.stiffness = args.not_negative("stretch k");
+             const double stretch = args.positive("stretch lambda");
+             if (stretch <= 1)
+               args.fail("Fix rbc/membrane stretch lambda value {} must be above 1", stretch);
+             elastic.stretch.i1 = stretch * stretch + 1 / (stretch * stretch);
+           }}};
+}
+
 void FixRBCMembrane::check_settings(const MembraneSettings &settings) const
 {
   const rbc::MembraneParameters &elastic = settings.elastic;
   const Swelling &swelling = settings.swelling;
-  if (elastic.crease.stiffness > 0 && elastic.bending == 0)
-    error->all(FLERR, "Fix rbc/membrane crease needs a bending modulus > 0");
+  check_crease(elastic);
   if ((swelling.varies() || swelling.now() != 1) && !settings.volume_kept && elastic.volume == 0)
     error->all(FLERR, "Fix rbc/membrane swell needs volume yes or a modulus of the volume");
+}
+
+void FixRBCMembrane::check_crease(const rbc::MembraneParameters &elastic) const
+{
+  if (elastic.crease.stiffness > 0 && elastic.bending == 0)
+    error->all(FLERR, "Fix rbc/membrane crease needs a bending modulus > 0");
 }
 
 rbc::SheetLaw FixRBCMembrane::read_law(Arguments &args)
@@ -176,6 +187,19 @@ rbc::SurfaceViscosity FixRBCMembrane::read_viscosity(Arguments &args)
 int FixRBCMembrane::setmask()
 {
   return POST_NEIGHBOR | POST_FORCE;
+}
+
+/* ---------------------------------------------------------------------- */
+
+int FixRBCMembrane::modify_param(int narg, char **arg)
+{
+  rbc::MembraneParameters changed = cells.parameters();
+  Arguments args(lmp, "fix rbc/membrane", narg, arg);
+  const int read = args.read_known(limits(args, changed));
+  if (read == 0) return 0;
+  check_crease(changed);
+  cells.limit(changed.crease, changed.stretch);
+  return read;
 }
 
 /* ---------------------------------------------------------------------- */

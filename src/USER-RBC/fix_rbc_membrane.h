@@ -9,6 +9,7 @@ FixStyle(rbc/membrane,FixRBCMembrane);
 
 #include "cells/rbc_cell_membranes.h"
 #include "fix.h"
+#include "support/rbc_arguments.h"
 #include "support/rbc_ghost_cutoff.h"
 
 namespace LAMMPS_NS {
@@ -18,6 +19,7 @@ class FixRBCMembrane : public Fix, public MembraneOwner {
  public:
   FixRBCMembrane(class LAMMPS *, int, char **);
   int setmask() override;
+  int modify_param(int, char **) override;
   void init() override;
   void setup_post_neighbor() override;
   void post_neighbor() override;
@@ -39,8 +41,11 @@ class FixRBCMembrane : public Fix, public MembraneOwner {
 
   MembraneSettings parse(int, char **);
   void check_settings(const MembraneSettings &) const;
-  rbc::SheetLaw read_law(class Arguments &);
+  void check_crease(const rbc::MembraneParameters &) const;
+  rbc::SheetLaw read_law(Arguments &);
   void read_bending(Arguments &, rbc::MembraneParameters &);
+  /// Keywords of what keeps a mesh usable, which fix_modify knows, too.
+  static std::vector<Arguments::Keyword> limits(Arguments &, rbc::MembraneParameters &);
   void read_volume(Arguments &, MembraneSettings &);
   rbc::SurfaceViscosity read_viscosity(Arguments &);
   void check_apart() const;

@@ -4,7 +4,7 @@ import unittest
 
 import numpy as np
 
-from lammps_case import dump_line, run, scene
+from lammps_case import attempt, dump_line, run, scene
 
 # Every term at once, with energies of a like size.
 LAWS = {
@@ -34,6 +34,22 @@ def membrane_scene(law, **changes):
 
 
 class Forces(unittest.TestCase):
+    def test_limits_by_fix_modify_are_those_of_the_fix(self):
+        law, limits = LAWS["mooney-rivlin"], "crease 0.05 20 stretch 0.02 1.05"
+        given, changed, without = (
+            run(membrane_scene(*arguments)).dump().forces() for arguments in
+            ((f"{law} {limits}",), (f"{law} crease 0.3 90\nfix_modify mem {limits}",), (law,)))
+        np.testing.assert_array_equal(changed, given)
+        self.assertGreater(abs(given - without).max(), 1e-3 * abs(without).max())
+
+    def test_limits_by_fix_modify_are_checked(self):
+        for limits, message in (("crease 0.05 180", "crease angle value 180 must be below 180 degrees"),
+                                ("stretch 0.05 1", "stretch lambda value 1 must be above 1"),
+                                ("crease 0.05 45", "crease needs a bending modulus > 0")):
+            with self.subTest(limits):
+                result = attempt(membrane_scene(f"neo-hookean 0.005\nfix_modify mem {limits}"))
+                self.assertIn(f"Fix rbc/membrane {message}", result.error)
+
     def test_minus_the_gradient_of_the_energy(self):
         step = 2e-4
         atoms = [1, 12, 80, 81, 162]

@@ -55,6 +55,15 @@ std::vector<CellMembranes *> LAMMPS_NS::all_cell_membranes(LAMMPS *lmp)
 
 /* ---------------------------------------------------------------------- */
 
+void CellMembranes::limit(const rbc::CreaseResistance &crease, const rbc::StretchLimit &stretch)
+{
+  settings_.elastic.crease = crease;
+  settings_.elastic.stretch = stretch;
+  model_.limit(crease, stretch);
+}
+
+/* ---------------------------------------------------------------------- */
+
 double CellMembranes::shear_modulus() const
 {
   const auto by_i1 = [](const auto &law) { return law(2, 1).by_i1; };

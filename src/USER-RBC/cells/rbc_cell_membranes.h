@@ -31,6 +31,9 @@ class CellMembranes : public StepPart, protected Pointers {
   const rbc::SurfaceTemplate &shape() const { return *settings_.surface; }
   const rbc::MembraneParameters &parameters() const { return settings_.elastic; }
 
+  /// Between runs: replaces what resists folds and large stretches.
+  void limit(const rbc::CreaseResistance &crease, const rbc::StretchLimit &stretch);
+
   /// Of small deformations, force per length; and the thickness of the cells at rest.
   double shear_modulus() const;
   double thickness();

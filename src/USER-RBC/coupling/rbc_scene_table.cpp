@@ -226,9 +226,11 @@ void SceneTable::warn_of_edges() const
 void SceneTable::warn_of_contacts() const
 {
   for (const std::string &kinds : apart_)
-    error->warning(FLERR,
-                   "{}: nothing keeps {} from passing through each other; use pair_style rbc/jkr",
-                   style_, kinds);
+    error->warning(
+        FLERR,
+        "{}: nothing keeps {} from passing through each other; use pair_style rbc/jkr, or "
+        "include potentials/dense.blood",
+        style_, kinds);
   for (const Kind &kind : kinds_) {
     const double range = kind.contact / spacing_;
     if (range == 0 || range >= SHORTEST_RANGE) continue;
@@ -245,6 +247,6 @@ void SceneTable::warn_of_plates(const DrivenFlow &flow) const
   if (!flow.settings().plates || cells() < 2 || !repelling_.empty()) return;
   error->warning(FLERR,
                  "{}: nothing repels the {:.0f} cells from the plates; use fix wall/harmonic "
-                 "with zlo EDGE and zhi EDGE",
+                 "with zlo EDGE and zhi EDGE, or include potentials/dense.blood",
                  style_, cells());
 }

@@ -46,6 +46,13 @@ class MembraneModel {
 
   const MembraneParameters &parameters() const { return parameters_; }
 
+  /// Replaces what resists folds and large stretches.
+  void limit(const CreaseResistance &crease, const StretchLimit &stretch)
+  {
+    parameters_.crease = crease;
+    parameters_.stretch = stretch;
+  }
+
   /// The volume that the penalty aims at; at first that of the template.
   void set_rest_volume(double volume) { rest_volume_ = volume; }
 

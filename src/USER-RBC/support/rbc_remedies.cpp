@@ -8,7 +8,19 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-enum class Remedy { stages, adapt, timestep, crease, stretch, contact, mesh, cutoff, skin, repel };
+enum class Remedy {
+  dense,
+  stages,
+  adapt,
+  timestep,
+  crease,
+  stretch,
+  contact,
+  mesh,
+  cutoff,
+  skin,
+  repel
+};
 
 /// In the order in which they are likely to help.
 std::vector<Remedy> against(Flaw flaw)
@@ -20,10 +32,11 @@ std::vector<Remedy> against(Flaw flaw)
     case Flaw::not_finite:
       return {Remedy::stages, Remedy::adapt, Remedy::timestep};
     case Flaw::folded:
-      return {Remedy::crease, Remedy::stretch,  Remedy::contact, Remedy::stages,
-              Remedy::adapt,  Remedy::timestep, Remedy::mesh};
+      return {Remedy::dense,  Remedy::crease, Remedy::stretch,  Remedy::contact,
+              Remedy::stages, Remedy::adapt,  Remedy::timestep, Remedy::mesh};
     case Flaw::stretched:
-      return {Remedy::cutoff, Remedy::stretch, Remedy::contact, Remedy::adapt, Remedy::mesh};
+      return {Remedy::dense,   Remedy::cutoff, Remedy::stretch,
+              Remedy::contact, Remedy::adapt,  Remedy::mesh};
     case Flaw::left_fluid:
       return {Remedy::skin, Remedy::stages, Remedy::adapt, Remedy::timestep};
     case Flaw::through_plate:
@@ -39,6 +52,8 @@ std::vector<Remedy> against(Flaw flaw)
 bool applies(Remedy remedy, const Situation &now)
 {
   switch (remedy) {
+    case Remedy::dense:
+      return now.several_cells && !(now.creases && now.limits_stretch);
     case Remedy::stages:
       return !now.inertia && !now.chooses_stages;
     case Remedy::adapt:
@@ -60,6 +75,8 @@ std::string text(Remedy remedy, const Situation &now)
 {
   constexpr double MORE = 1.5;
   switch (remedy) {
+    case Remedy::dense:
+      return "include potentials/dense.blood before run, which has what many cells need";
     case Remedy::stages:
       return "integrator rkc auto";
     case Remedy::adapt:

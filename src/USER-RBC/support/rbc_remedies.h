@@ -25,7 +25,7 @@ struct Situation {
   bool chooses_stages = false;    ///< integrator rkc auto
   bool adapts = false;
   bool membranes = false, creases = false, limits_stretch = false;    ///< all membranes have it
-  bool lacks_contact = false;                                         ///< there are several cells
+  bool several_cells = false, lacks_contact = false;
   double timestep = 0, ghost_cutoff = 0, skin = 0;
 };
 
