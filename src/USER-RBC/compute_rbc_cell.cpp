@@ -118,11 +118,12 @@ void ComputeRBCCell::warn_of_jump(const double *row, const Vec3 &centre)
     if (!domain->periodicity[d] || !(std::abs(centre[d] - row[1 + d]) > IMGMAX * domain->prd[d]))
       continue;
     warned = true;
+    const char side = "xyz"[d];
     if (comm->me == 0)
       error->warning(FLERR,
                      "Compute rbc/cell {}: the centre of the cell with molecule ID {} jumped by {} "
                      "lengths of the box in {} before step {}: image flags go from {} to {} only",
-                     id, cells.molecules()[n], 2 * IMGMAX, "xyz"[d], update->ntimestep, -IMGMAX,
+                     id, cells.molecules()[n], 2 * IMGMAX, side, update->ntimestep, -IMGMAX,
                      IMGMAX - 1);
     return;
   }

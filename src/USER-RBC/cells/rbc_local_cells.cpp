@@ -77,6 +77,19 @@ void LocalCells::Extent::include(const Extent &other)
 
 void LocalCells::update_ownership(bool bending)
 {
+  const std::vector<int> owned_count = find_owned();
+  check_complete(owned_count);
+  find_shared(find_parts(owned_count, bending));
+  find_images(std::exchange(starts_run, false));
+  set_origins();
+}
+
+/* ----------------------------------------------------------------------
+   sets local and atoms to the vertices owned; returns how many there are of each cell
+------------------------------------------------------------------------- */
+
+std::vector<int> LocalCells::find_owned()
+{
   const int size = shape.vertex_count();
   std::vector<int> slot(molecule_ids.size(), -1);
   std::vector<int> owned_count;
@@ -112,8 +125,17 @@ void LocalCells::update_ownership(bool bending)
   }
 
   stop.check();
-  check_complete(owned_count);
+  return owned_count;
+}
 
+/* ----------------------------------------------------------------------
+   adds the vertices of other ranks on which forces depend; returns which cells are held in part
+------------------------------------------------------------------------- */
+
+std::vector<char> LocalCells::find_parts(const std::vector<int> &owned_count, bool bending)
+{
+  const int size = shape.vertex_count();
+  CollectiveStop stop(lmp);
   parts.clear();
   parts.reserve(local.size());
   std::vector<char> is_part(local.size());
@@ -132,9 +154,7 @@ void LocalCells::update_ownership(bool bending)
     check_neighbors(c, bending ? 3 : 2, stop);
   }
   stop.check();
-  find_shared(is_part);
-  find_images(std::exchange(starts_run, false));
-  set_origins();
+  return is_part;
 }
 
 /* ----------------------------------------------------------------------

@@ -90,6 +90,8 @@ class LocalCells : protected Pointers {
   std::vector<double> buffer;
 
   std::vector<Extent> find_extents() const;
+  std::vector<int> find_owned();
+  std::vector<char> find_parts(const std::vector<int> &owned_count, bool bending);
   void check_complete(const std::vector<int> &owned_count) const;
   void find_neighbors(std::size_t at, tagint first, const std::vector<char> &owned, int rings);
   void check_neighbors(std::size_t c, int rings, CollectiveStop &stop) const;
