@@ -27,6 +27,18 @@ class ShortRuns(unittest.TestCase):
                     ends.append(result.dump().frames[-1])
                 np.testing.assert_array_equal(*ends)
 
+    def test_forces_of_later_fixes(self):
+        # the setup of a run does not see them
+        for integrator in ("midpoint", "rkc auto"):
+            for fluid in (SHEAR["fluid"], SHEAR["fluid"] + f" mean x {HELD}"):
+                with self.subTest(integrator, fluid=fluid):
+                    common = dict(fluid=fluid, ib=SHEAR["ib"].replace("midpoint", integrator), before="atom_modify sort 0 0.0",
+                                  neighbor="neighbor 1.0 bin\nneigh_modify every 1 delay 0 check no",
+                                  last="fix push all addforce 1e-4 0 5e-5", dump=dump_line(STEPS))
+                    ends = [run(scene(**common, run=pieces)).dump().frames[-1]
+                            for pieces in (f"run {2 * STEPS}", f"run {STEPS}\nrun 0\nrun {STEPS}")]
+                    np.testing.assert_array_equal(*ends)
+
     def test_no_probes_but_in_the_first_run(self):
         solves = run(scene(**CHANNEL, ib="fix ib all rbc/ib flow integrator euler",
                            run="run 1\nrun 1\nrun 0\nrun 1")).thermo["f_flow[12]"]

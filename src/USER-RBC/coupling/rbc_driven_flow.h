@@ -88,6 +88,7 @@ class DrivenFlow : public StepPart, protected Pointers {
   bool controls_flow_rate() const { return forcing_.held_direction() >= 0; }
   void correct_flow_rate();
   bool probe_flow_rate();
+  bool is_probing_flow_rate() const { return controls_flow_rate() && forcing_.probing(); }
 
   /// Between hold_walls() and release_walls() evaluations may be made that are not to count: with
   /// `as_before` the walls go on from what they knew before. Collective.

@@ -88,6 +88,10 @@ void TimeSteps::setup()
     return;
   }
   start_velocities();
+  if (forces_change_ && doubts_velocities_ && !flow_->is_probing_flow_rate()) {
+    show_velocities();
+    return;
+  }
   markers_.velocities_from_forces(Stage::start);
   while (flow_->probe_flow_rate()) {
     markers_.recompute_forces();
@@ -112,6 +116,21 @@ void TimeSteps::start_velocities()
   doubts_velocities_ = velocity_step_ == step();
   if (!doubts_velocities_) return;
   markers_.load(atom->v, V_);
+  flow_->hold_walls();
+}
+
+/* ----------------------------------------------------------------------
+   Forces of fixes that come later are missing still, so the first step compares velocities. Here
+   they are evaluated for what is printed of the flow, and all stays as it was.
+------------------------------------------------------------------------- */
+
+void TimeSteps::show_velocities()
+{
+  markers_.load(atom->f, V_new_);
+  markers_.velocities_from_forces(ImmersedMarkers::Stage::start);
+  markers_.store(V_, atom->v);
+  markers_.store(V_new_, atom->f);
+  flow_->release_walls(true);
   flow_->hold_walls();
 }
 

@@ -93,6 +93,7 @@ class TimeSteps : protected Pointers {
   double update_dt() const;
   bigint step() const;
   void start_velocities();
+  void show_velocities();
   void compare_velocities();
   bool are_velocities_same();
   void choose_timestep();
