@@ -47,7 +47,7 @@ FixRBCIB::FixRBCIB(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), cos
 }
 
 /* ----------------------------------------------------------------------
-   as far as the fluid is known: init() looks again
+   Tells whether the fluid has inertia, if it is defined already. init() looks again.
 ------------------------------------------------------------------------- */
 
 bool FixRBCIB::fluid_has_inertia() const
@@ -57,7 +57,7 @@ bool FixRBCIB::fluid_has_inertia() const
 }
 
 /* ----------------------------------------------------------------------
-   the fluid was defined, or another one, after this fix
+   Chooses the default integrator anew where the fluid was defined after this fix.
 ------------------------------------------------------------------------- */
 
 void FixRBCIB::update_default()

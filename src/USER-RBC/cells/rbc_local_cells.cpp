@@ -85,7 +85,7 @@ void LocalCells::update_ownership(bool bending)
 }
 
 /* ----------------------------------------------------------------------
-   sets local and atoms to the vertices owned; returns how many there are of each cell
+   Sets local and atoms to the vertices owned. Returns how many of each cell there are.
 ------------------------------------------------------------------------- */
 
 std::vector<int> LocalCells::find_owned()
@@ -129,7 +129,7 @@ std::vector<int> LocalCells::find_owned()
 }
 
 /* ----------------------------------------------------------------------
-   adds the vertices of other ranks on which forces depend; returns which cells are held in part
+   Adds the vertices of other ranks on which forces depend. Returns which cells are held in part.
 ------------------------------------------------------------------------- */
 
 std::vector<char> LocalCells::find_parts(const std::vector<int> &owned_count, bool bending)

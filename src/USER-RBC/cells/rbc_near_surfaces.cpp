@@ -183,13 +183,11 @@ void NearSurfaces::collect_triangles(double longest)
         if (own_patch > 0) template_triangle.push_back(t);
       } else if (i < atom->nlocal)
         stop->report(
-            fmt::format(
-                "{}: a triangle of the cell with molecule ID {} near ({:.6g}, {:.6g}, {:.6g}) has "
-                "an "
-                "edge longer than {:.6g} at step {}; it is stretched too far, or raise the ghost "
-                "cutoff {:.6g} with comm_modify cutoff",
-                style, atom->molecule[i], atom->x[i][0], atom->x[i][1], atom->x[i][2], longest,
-                update->ntimestep, comm->get_comm_cutoff()),
+            fmt::format("{}: a triangle of the cell with molecule ID {} near ({:.6g}, {:.6g}, "
+                        "{:.6g}) has an edge longer than {:.6g} at step {}; it is stretched too "
+                        "far, or raise the ghost cutoff {:.6g} with comm_modify cutoff",
+                        style, atom->molecule[i], atom->x[i][0], atom->x[i][1], atom->x[i][2],
+                        longest, update->ntimestep, comm->get_comm_cutoff()),
             Flaw::stretched);
     }
   }
@@ -232,14 +230,14 @@ void NearSurfaces::check_moved()
   if (!(moved <= allowed)) {
     const int i = built.furthest_moved(atom->x[0]);
     const double *const x = atom->x[i];
-    stop->report(fmt::format("{}: vertices moved by up to {:.4g} since step {}, when their "
-                             "neighbors were found, more "
-                             "than {:.6g}, at step {}: cell with molecule ID {} near ({:.6g}, "
-                             "{:.6g}, {:.6g}); raise "
-                             "the skin with the neighbor command, or lower the timestep",
-                             style, moved, neighbor->lastcall, allowed, update->ntimestep,
-                             atom->molecule[i], x[0], x[1], x[2]),
-                 Flaw::unseen_motion);
+    stop->report(
+        fmt::format("{}: vertices moved by up to {:.4g} since step {}, when their neighbors were "
+                    "found, more than {:.6g}, at step {}: cell with molecule ID {} near ({:.6g}, "
+                    "{:.6g}, {:.6g}); raise the skin with the neighbor command, or lower the "
+                    "timestep",
+                    style, moved, neighbor->lastcall, allowed, update->ntimestep, atom->molecule[i],
+                    x[0], x[1], x[2]),
+        Flaw::unseen_motion);
   }
   stop->check();
 }

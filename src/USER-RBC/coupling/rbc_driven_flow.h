@@ -98,7 +98,7 @@ class DrivenFlow : public StepPart, protected Pointers {
   /// What the next step of a flow without inertia needs to know of those before it, of flow rate
   /// and walls: for restart files, on rank 0, in `most` numbers at the most. Collective.
   std::vector<double> memory(std::size_t most);
-  void remember(const std::vector<double> &memory);
+  void remember(std::vector<double> memory);
 
   // An evaluation. Collective but for clear_force and spread.
 

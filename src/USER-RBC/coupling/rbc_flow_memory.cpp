@@ -7,6 +7,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <utility>
 
 using namespace LAMMPS_NS;
 
@@ -15,8 +16,9 @@ using namespace LAMMPS_NS;
 static constexpr double PROBE_COURANT = 0.02;
 
 /* ----------------------------------------------------------------------
-   the first input is the body force that gives Poiseuille flow in a round tube of the vessel's mean
-   cross-section, slow enough for atoms in throats
+   The control first probes the response with the body force that gives Poiseuille flow in a round
+   tube of the vessel's mean cross-section. The probe is so weak that even where the vessel is
+   narrow no atom crosses too many cells in a step.
 ------------------------------------------------------------------------- */
 
 void DrivenFlow::start_control()
@@ -29,7 +31,8 @@ void DrivenFlow::start_control()
 }
 
 /* ----------------------------------------------------------------------
-   what is known goes from run to run, or comes from a restart file
+   The control goes on with the response that an earlier run or a restart file knows, if there is
+   one.
 ------------------------------------------------------------------------- */
 
 void DrivenFlow::continue_control()
@@ -91,10 +94,11 @@ std::vector<double> DrivenFlow::memory(std::size_t most)
   return memory;
 }
 
-void DrivenFlow::remember(const std::vector<double> &memory)
+void DrivenFlow::remember(std::vector<double> memory)
 {
   FlowForcing::State control;
   std::copy_n(memory.begin(), control.size(), control.begin());
   forcing_.restore_control(control);
-  wall_memory_.assign(memory.begin() + control.size(), memory.end());
+  memory.erase(memory.begin(), memory.begin() + control.size());
+  wall_memory_ = std::move(memory);
 }

@@ -9,8 +9,9 @@
 
 using namespace LAMMPS_NS;
 
-// Numbers: LAYOUT, two of scheme direct, those of the time steps. Files of before had no layout, so
-// that the first number was a timestep, and fewer numbers of the time steps.
+// The file has these numbers: LAYOUT, two of scheme direct, those of the time steps. Earlier files
+// had no layout, so their first number was a timestep, and they had fewer numbers of the time
+// steps.
 
 static constexpr double LAYOUT = -1;
 static constexpr int NUMBERS = 3 + TimeSteps::NSTATE;

@@ -57,8 +57,8 @@ void SceneTable::print(const DrivenFlow &flow)
 }
 
 /* ----------------------------------------------------------------------
-   of the plates against each other, or of the fastest wall against the middle of the box along its
-   shortest side, whichever is larger
+   Returns the larger of two shear rates: that of the plates against each other, and that of the
+   fastest wall against the middle of the box along its shortest side.
 ------------------------------------------------------------------------- */
 
 double SceneTable::shear_rate(const DrivenFlow &flow) const
@@ -73,7 +73,8 @@ double SceneTable::shear_rate(const DrivenFlow &flow) const
 }
 
 /* ----------------------------------------------------------------------
-   capillary number: viscous stress over the tension that resists shear
+   Finds the kinds of cells. Their capillary number is the viscous stress over the tension that
+   resists shear.
 ------------------------------------------------------------------------- */
 
 void SceneTable::find_kinds(const DrivenFlow &flow)
@@ -132,7 +133,8 @@ double SceneTable::contact_range(const Kind &one, const Kind &other) const
 }
 
 /* ----------------------------------------------------------------------
-   other pair styles act between vertices
+   Returns the distance at which cells of these types begin to act on each other. Pair styles of
+   LAMMPS act between vertices, up to their cutoff.
 ------------------------------------------------------------------------- */
 
 double SceneTable::contact_range(int itype, int jtype) const

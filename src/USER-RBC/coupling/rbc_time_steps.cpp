@@ -19,7 +19,7 @@ using rbc::Numbers;
 
 static constexpr double SMALLEST_PART = 1.0e-6;
 
-// velocities that differ by less of them are the same
+// Velocities count as the same if they differ by less than this part of them.
 
 static constexpr double SAME = 1.0e-6;
 
@@ -234,7 +234,7 @@ struct Trying {
 };
 
 /* ----------------------------------------------------------------------
-   false if something went wrong
+   Makes a step that may be taken again; returns false if something went wrong.
 ------------------------------------------------------------------------- */
 
 bool TimeSteps::try_step()
@@ -277,8 +277,8 @@ void TimeSteps::note_failure(const std::string &what, Flaw flaw)
 }
 
 /* ----------------------------------------------------------------------
-   forces at the end of a step are LAMMPS's, and come too late to take the step again: they are
-   computed here, too, where something is likely to be wrong
+   Checks the positions at the end of the step. LAMMPS computes the forces there, too late to take
+   the step again. So they are computed here as well where something is likely to be wrong.
 ------------------------------------------------------------------------- */
 
 void TimeSteps::check_result()

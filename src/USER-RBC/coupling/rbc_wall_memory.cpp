@@ -4,6 +4,7 @@
 #include "coupling/rbc_rigid_walls.h"
 
 #include "comm.h"
+#include "support/rbc_gather.h"
 
 #include <algorithm>
 #include <numeric>
@@ -29,22 +30,6 @@ std::vector<double> flow_key(const fluid::Flow &flow, const WallGroup &first, bo
           flow.equations().viscosity,
           double(first.settings().kernel),
           double(free_mean)};
-}
-
-/// The rows of all ranks on rank 0, in the order of the ranks.
-std::vector<double> gather(const std::vector<double> &mine, MPI_Comm world)
-{
-  int ranks, me;
-  MPI_Comm_size(world, &ranks);
-  MPI_Comm_rank(world, &me);
-  const int count = static_cast<int>(mine.size());
-  std::vector<int> counts(ranks), begins(ranks);
-  MPI_Gather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, world);
-  for (int r = 1; r < ranks; ++r) begins[r] = begins[r - 1] + counts[r - 1];
-  std::vector<double> all(me == 0 ? begins.back() + counts.back() : 0);
-  MPI_Gatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), begins.data(), MPI_DOUBLE,
-              0, world);
-  return all;
 }
 
 }    // namespace
@@ -90,7 +75,7 @@ std::vector<double> RigidWalls::memory(const fluid::Flow &flow, std::size_t most
     rows.push_back(static_cast<double>(tags_[n]));
     rows.insert(rows.end(), &of_markers[n * each], &of_markers[n * each] + each);
   }
-  const std::vector<double> all = gather(rows, world);
+  const std::vector<double> all = gather_on_first(rows, world);
   if (comm->me != 0) return {};
 
   // times from the end of the step on, as the next run counts them
@@ -113,7 +98,8 @@ void RigidWalls::forget()
 }
 
 /* ----------------------------------------------------------------------
-   false where there is nothing for these markers
+   Takes what a restart file has for these markers; returns false if it has nothing, or is of other
+   walls or of another flow.
 ------------------------------------------------------------------------- */
 
 bool RigidWalls::set_remembered(const fluid::Flow &flow)

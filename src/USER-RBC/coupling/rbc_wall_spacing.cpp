@@ -31,7 +31,7 @@ template <Offer offer> void take(int count, char *buffer, void *spacing)
 }    // namespace
 
 /* ----------------------------------------------------------------------
-   in units of the grid's spacing, which may differ between directions
+   Positions are counted in spacings of the grid, which may differ between directions.
 ------------------------------------------------------------------------- */
 
 void LAMMPS_NS::warn_of_coarse_wall(LAMMPS *lmp, const WallGroup &wall,

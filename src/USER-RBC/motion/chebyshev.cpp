@@ -82,7 +82,7 @@ void ChebyshevMethod::step(Motion &motion, double dt, const Numbers &start, cons
     }
     past.add_to(rate_, past.velocity_weights(at * dt), 1);
   }
-  measure_rate_back(motion, start, velocity, x);
+  if (measures_rate_back) measure_rate_back(motion, start, velocity, x);
   place(1);
 }
 

@@ -38,6 +38,9 @@ class ChebyshevMethod {
   void step(Motion &motion, double dt, const Numbers &start, const Numbers &velocity,
             const DisplacementHistory &past, Numbers &x, double begin = 0, double part = 1);
 
+  /// Makes step() measure rate_back(), which costs one sum over ranks.
+  bool measures_rate_back = false;
+
   /// Of the last step(): the rate at which the points are driven back to where they came from,
   ///   - dX . dV / dX . dX
   /// with the changes of positions and velocities from the start to the last stage. In a motion
@@ -57,6 +60,7 @@ class ChebyshevMethod {
 
   void measure_rate_back(const Motion &motion, const Numbers &start, const Numbers &velocity,
                          const Numbers &x);
+
   int order_;
   double damping_;
   std::vector<Stage> stages_;

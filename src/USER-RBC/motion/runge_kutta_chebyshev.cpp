@@ -39,6 +39,7 @@ class Divided {
 RungeKuttaChebyshev::RungeKuttaChebyshev(int stages, int order) :
     chebyshev_(order), automatic_(stages == 0)
 {
+  chebyshev_.measures_rate_back = automatic_;
   if (stages > 0) chebyshev_.set_stages(stages);
 }
 

@@ -14,7 +14,7 @@ constexpr double STEADY_CHANGE = 0.01, FAST_CHANGE = 0.03;
 
 constexpr double SAFETY = 1.06, LARGEST_GROWTH = 1.5;
 
-// After a step that went wrong: 1.5 times the stages, and then 1 % fewer in each step.
+// After a step that went wrong the next try has 1.5 times the stages. Then each step has 1 % fewer.
 
 constexpr double RISE = 2.25, FALL = 0.98;
 constexpr double LARGEST_RISE = 5;    // over the estimate

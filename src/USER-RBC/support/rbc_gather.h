@@ -29,6 +29,24 @@ std::vector<Element> gather_all(const std::vector<Element> &mine, MPI_Comm world
   return all;
 }
 
+/// Collective: the same on rank 0. The other ranks get nothing.
+template <typename Element>
+std::vector<Element> gather_on_first(const std::vector<Element> &mine, MPI_Comm world)
+{
+  static_assert(std::is_trivially_copyable_v<Element>, "elements are sent as bytes");
+  int ranks, me;
+  MPI_Comm_size(world, &ranks);
+  MPI_Comm_rank(world, &me);
+  const int bytes = static_cast<int>(mine.size() * sizeof(Element));
+  std::vector<int> counts(ranks), begins(ranks);
+  MPI_Gather(&bytes, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, world);
+  for (int r = 1; r < ranks; ++r) begins[r] = begins[r - 1] + counts[r - 1];
+  std::vector<Element> all(me == 0 ? (begins.back() + counts.back()) / sizeof(Element) : 0);
+  MPI_Gatherv(mine.data(), bytes, MPI_BYTE, all.data(), counts.data(), begins.data(), MPI_BYTE, 0,
+              world);
+  return all;
+}
+
 /// What the elements of one molecule tell together, in order of molecule ID. Element has a member
 /// `molecule` and adds another's part by include().
 template <typename Element> void merge_molecules(std::vector<Element> &elements)
