@@ -1,9 +1,11 @@
 #!/usr/bin/python3
-"""Core time of compute rbc/aggregate per call, for columns of stacked cells (162 vertices, 0.3 um apart).
+"""Core time of compute rbc/aggregate per call, for columns of stacked cells (162 vertices, 0.3 um
+apart).
 
-Four runs of one script at rest: without the compute, with it but not called, called every step, and called every step
-with the keyword area. What it costs is the difference to the first; core time is run time times the use of the CPU, so
-that other work on the machine counts little. The number of aggregates must be that of the columns.
+Four runs of one script at rest: without the compute, with it but not called, called every step, and
+called every step with the keyword area. What it costs is the difference to the first; core time is
+run time times the use of the CPU, so that other work on the machine counts little. The number of
+aggregates must be that of the columns.
 """
 
 import csv

@@ -1,5 +1,5 @@
-"""Errors of bending that `bending` measures, bending.csv: prints a table and draws bending.png, errors over the spacing of the
-mesh."""
+"""Errors of bending that `bending` measures, bending.csv: prints a table and draws bending.png,
+errors over the spacing of the mesh."""
 
 import csv
 import sys

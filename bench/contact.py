@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Time of pair rbc/jkr for 512 red cells of 162 vertices on one core, per evaluation and per search of near triangles.
+"""Time of pair rbc/jkr for 512 red cells of 162 vertices on one core, per evaluation and per search
+of near triangles.
 
-The cells lie in 8 x 8 x 8 places, side by side and face to face, slightly turned, at a volume fraction of 0.5; more than a quarter
-of their surface is in contact. They stay where they are: evaluations are all alike, and with `check no` each step begins with
-a search. Times are processor time of the run (which a busy machine changes less than wall time) less that of the same
-run without the pair style: more ghost atoms count in. Writes contact.csv to a folder. The executable comes from the environment
-(LMP_RBC).
+The cells lie in 8 x 8 x 8 places, side by side and face to face, slightly turned, at a volume
+fraction of 0.5; more than a quarter of their surface is in contact. They stay where they are:
+evaluations are all alike, and with `check no` each step begins with a search. Times are processor
+time of the run (which a busy machine changes less than wall time) less that of the same run without
+the pair style: more ghost atoms count in. Writes contact.csv to a folder. The executable comes from
+the environment (LMP_RBC).
 """
 import csv
 import resource

@@ -1,7 +1,9 @@
-"""Start-up of plane Couette flow: error against run time of fix rbc/fluid and of LAMMPS's own fix lb/fluid.
+"""Start-up of plane Couette flow: error against run time of fix rbc/fluid and of LAMMPS's own fix
+lb/fluid.
 
-Fluid at rest, the upper plate moves with U from t = 0 on. Writes couette_start.csv and couette_start.png to a folder; the
-executable and fix lb/fluid as a plugin come from the environment (LMP_RBC, LB_FLUID), as in couette_start.sh.
+Fluid at rest, the upper plate moves with U from t = 0 on. Writes couette_start.csv and
+couette_start.png to a folder; the executable and fix lb/fluid as a plugin come from the environment
+(LMP_RBC, LB_FLUID), as in couette_start.sh.
 """
 
 import csv

@@ -1,4 +1,5 @@
-"""Drag of spheres that `drag` measures, drag.csv: prints the largest errors and draws drag.png, error against resolution."""
+"""Drag of spheres that `drag` measures, drag.csv: prints the largest errors and draws drag.png,
+error against resolution."""
 
 import csv
 import sys

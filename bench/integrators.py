@@ -1,11 +1,13 @@
 #!/usr/bin/python3
-"""Error against solves of the integrators of fix rbc/ib, and the largest timestep at which each is stable.
+"""Error against solves of the integrators of fix rbc/ib, and the largest timestep at which each is
+stable.
 
-One red cell (642 vertices) in shear between plates, dx = 0.5 um, plasma, for a strain of 10, 2 and 1. The error is the root mean
-square distance of the vertices from those of a run with much shorter steps, at ten times of equal distance (at a single time the
-error of a cell that turns may happen to be small). A timestep is stable if nothing
-stops the run, and at its end, after 1000 steps or that strain (but 60 steps at least), the elastic energy is not
-more than 1.5 times that of a stable run: what is not stable crumples the membrane.
+One red cell (642 vertices) in shear between plates, dx = 0.5 um, plasma, for a strain of 10, 2 and
+1. The error is the root mean square distance of the vertices from those of a run with much shorter
+steps, at ten times of equal distance (at a single time the error of a cell that turns may happen to
+be small). A timestep is stable if nothing stops the run, and at its end, after 1000 steps or that
+strain (but 60 steps at least), the elastic energy is not more than 1.5 times that of a stable run:
+what is not stable crumples the membrane.
 """
 
 import csv
@@ -70,8 +72,8 @@ class Cell:
         self.reference = None
 
     def run(self, integrator, timestep, end=None):
-        """Positions at FRAMES times, elastic energy at the end, solves and the timestep, the largest up to that wanted
-        with which the frames are on time, or None if the run stopped."""
+        """Positions at FRAMES times, elastic energy at the end, solves and the timestep, the
+        largest up to that wanted with which the frames are on time, or None if the run stopped."""
         every = math.ceil((end or self.end) / timestep / FRAMES - 1e-9)
         steps = FRAMES * every
         timestep = (end or self.end) / steps

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Puts the results of `kernels` (Google Benchmark's JSON, named *.<ranks>.json) into kernels.csv and a table.
+"""Puts the results of `kernels` (Google Benchmark's JSON, named *.<ranks>.json) into kernels.csv
+and a table.
 
-    kernels.py kernels.1.json [kernels.2.json ...] --output FOLDER
+kernels.py kernels.1.json [kernels.2.json ...] --output FOLDER
 """
 import csv
 import json

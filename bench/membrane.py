@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Time of the membrane's forces per vertex and evaluation on one core.
 
-Reads what `membrane` measured alone (Google Benchmark's JSON), measures the same in runs of LAMMPS (row "Membrane" of
-the table at their end: the positions' way in and the forces' way out belong to it), and writes membrane.csv. The
-executable comes from the environment (LMP_RBC).
+Reads what `membrane` measured alone (Google Benchmark's JSON), measures the same in runs of LAMMPS
+(row "Membrane" of the table at their end: the positions' way in and the forces' way out belong to
+it), and writes membrane.csv. The executable comes from the environment (LMP_RBC).
 
-    membrane.py membrane.json --output FOLDER
+membrane.py membrane.json --output FOLDER
 """
 import csv
 import json

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Packings of rbc/create: run time, least gap, directions; the same places on any number of ranks.
 
-Writes packing.csv, packing.png (directions) and packing-cells.png to a folder; the executables come from the environment (LMP_RBC,
-MPIEXEC), as in packing.sh.
+Writes packing.csv, packing.png (directions) and packing-cells.png to a folder; the executables come
+from the environment (LMP_RBC, MPIEXEC), as in packing.sh.
 """
 import csv
 import os
@@ -62,7 +62,8 @@ def pack(template, cells, hematocrit, plates, seed, ranks):
 
 
 def order(axes):
-    """Eigenvalues of the mean of (3 n n - 1) / 2, which are 0 for isotropic directions and 1 for one direction."""
+    """Eigenvalues of the mean of (3 n n - 1) / 2, which are 0 for isotropic directions and 1 for
+    one direction."""
     return np.linalg.eigvalsh(1.5 * axes.T @ axes / len(axes) - 0.5 * np.eye(3))
 
 

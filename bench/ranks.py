@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""Differences between runs of the vessel scenes of the examples, at reduced length, on 1, 2 and 4 ranks.
+"""Differences between runs of the vessel scenes of the examples, at reduced length, on 1, 2 and 4
+ranks.
 
-Writes ranks.csv and ranks.png to a folder; the executables come from the environment (LMP_RBC, MPIEXEC), as in ranks.sh.
+Writes ranks.csv and ranks.png to a folder; the executables come from the environment (LMP_RBC,
+MPIEXEC), as in ranks.sh.
 """
 import csv
 import itertools
@@ -38,7 +40,8 @@ def script(name, variables, steps):
 
 
 def compare(name):
-    """Rows of ranks.csv: of each frame the largest distance of a vertex from where it is on one rank, in diameters."""
+    """Rows of ranks.csv: of each frame the largest distance of a vertex from where it is on one
+    rank, in diameters."""
     variables, steps, diameter = SCENES[name]
     runs = {ranks: run(script(name, variables, steps), ranks, timeout=3600) for ranks in RANKS}
     dumps = {ranks: result.dump() for ranks, result in runs.items()}

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Scaling of fix rbc/fluid, alone and with red cells, over ranks and over layouts of the ranks.
 
-Writes scaling.csv and scaling.png to a folder; the executables come from the environment (LMP_RBC, MPIEXEC), as in scaling.sh.
+Writes scaling.csv and scaling.png to a folder; the executables come from the environment (LMP_RBC,
+MPIEXEC), as in scaling.sh.
 """
 import csv
 import os

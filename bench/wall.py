@@ -1,4 +1,5 @@
-"""Slip against solves that `wall` measures, wall.csv: prints the solves to a slip of 1e-3 and draws wall.png."""
+"""Slip against solves that `wall` measures, wall.csv: prints the solves to a slip of 1e-3 and draws
+wall.png."""
 
 import csv
 import sys

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Error against run time that `work_precision` measures, work_precision.csv, drawn as work_precision.png."""
+"""Error against run time that `work_precision` measures, work_precision.csv, drawn as
+work_precision.png."""
 import csv
 import sys
 from itertools import groupby

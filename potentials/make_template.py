@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Write a cell template: a LAMMPS molecule file of a closed, oriented triangle mesh.
 
-The Coords are the shape, centred at 0; the Angles are the triangles, right-handed outward. Shapes other than `mesh`
-have V = 10 f^2 + 2 vertices and 20 f^2 triangles for any frequency f >= 1.
+The Coords are the shape, centred at 0; the Angles are the triangles, right-handed outward. Shapes
+other than `mesh` have V = 10 f^2 + 2 vertices and 20 f^2 triangles for any frequency f >= 1.
 
 Lengths are in the unit of --radius, --diameter or the mesh (um in `units micro`).
 
@@ -44,7 +44,8 @@ CITATION = {
 
 
 def numbered(shape, points, triangles):
-    """Points and triangles along a Hilbert curve of `shape`, another surface of the same triangles."""
+    """Points and triangles along a Hilbert curve of `shape`, another surface of the same
+    triangles."""
     order = surface_mesh.hilbert_order(shape)
     return points[order], surface_mesh.renumber(order, triangles)
 
@@ -69,7 +70,8 @@ def exact(shape, radius):
 
 
 def recognised(path):
-    """Shape and frequency of a template that is a sphere or disc of this script; its points and triangles."""
+    """Shape and frequency of a template that is a sphere or disc of this script; its points and
+    triangles."""
     points, triangles = read_molecule(path)
     frequency = max(1, math.isqrt(len(points) // 10))
     radius = np.linalg.norm(points[:, :2], axis=1).max()
@@ -103,7 +105,8 @@ def spheroid_like(path, axis_ratio):
 
 
 def scale_to(area, points, triangles):
-    """Factor that gives the mesh an area; rounded, so that every machine's sum gives the same file."""
+    """Factor that gives the mesh an area; rounded, so that every machine's sum gives the same
+    file."""
     return round(math.sqrt(area / surface_mesh.measure(points, triangles)["area"]), 12)
 
 
@@ -146,7 +149,8 @@ def report(stream, points, triangles, smooth=(None, None)):
 
 
 def number(kind, lowest, highest=math.inf):
-    """Argument type: a finite number of a kind, at least (int) or above (float) lowest, at most highest."""
+    """Argument type: a finite number of a kind, at least (int) or above (float) lowest, at most
+    highest."""
     def convert(text):
         value = kind(text)
         if not math.isfinite(value) or value < lowest or (kind is float and value == lowest) or value > highest:

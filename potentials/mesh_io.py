@@ -85,7 +85,8 @@ def _without_mark(path):
 
 
 def read_surface(path):
-    """Points and triangles of a file: polygons are cut into triangles, points at one place merged, others dropped.
+    """Points and triangles of a file: polygons are cut into triangles, points at one place merged,
+    others dropped.
 
     Raises ValueError, saying why, if the file holds no triangles or some of them are no triangles.
     """

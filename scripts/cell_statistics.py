@@ -1,15 +1,16 @@
 #!/usr/bin/python3
 """Where cells are to each other and where they go, from the array of `compute rbc/cell`:
 
-  fix out all ave/time 1000 1 1000 c_cell[*] mode vector file cell.dat
+fix out all ave/time 1000 1 1000 c_cell[*] mode vector file cell.dat
   cell_statistics.py cell.dat --box 0 24 0 24 0 24 --boundary p p f --neighbours 4 -o statistics
 
-writes statistics-pairs.dat (radial distribution of the centres and mean |cos| of the angle between the short axes,
-against distance), statistics-paths.dat (coordinates of sampled cells against time) and statistics.png, and prints
-the rouleau order: the mean |cos| over pairs of neighbours, 1/2 for directions at random, 1 for a stack of coins.
-Neighbours are cells with their centres closer than --neighbours and, if the aggregate of each cell is given,
+writes statistics-pairs.dat (radial distribution of the centres and mean |cos| of the angle between
+the short axes, against distance), statistics-paths.dat (coordinates of sampled cells against time)
+and statistics.png, and prints the rouleau order: the mean |cos| over pairs of neighbours, 1/2 for
+directions at random, 1 for a stack of coins. Neighbours are cells with their centres closer than
+--neighbours and, if the aggregate of each cell is given,
 
-  compute molecule all chunk/atom molecule compress yes
+compute molecule all chunk/atom molecule compress yes
   compute member all reduce/chunk molecule max c_agg
   fix members all ave/time 1000 1 1000 c_member mode vector file member.dat
 
@@ -44,7 +45,8 @@ class Box(NamedTuple):
         return np.where(self.periodic, self.lengths / 2, self.lengths).min()
 
     def share_inside(self, distances, directions=4000):
-        """Share of the pairs at a distance, from a point anywhere in the box, whose second point is in the box too."""
+        """Share of the pairs at a distance, from a point anywhere in the box, whose second point is
+        in the box too."""
         n = np.arange(directions) + 0.5
         z, turn = 1 - 2 * n / directions, np.pi * (1 + 5**0.5) * n    # points of a Fibonacci lattice on the sphere
         unit = np.column_stack([np.sqrt(1 - z * z) * np.cos(turn), np.sqrt(1 - z * z) * np.sin(turn), z])
@@ -55,8 +57,8 @@ class Box(NamedTuple):
 
 
 def pairs(box, centres, axes, longest, members=None):
-    """Distance and |cos| of the angle between the axes of every pair of cells closer than `longest` and, where
-    `members` names the aggregate of each, in the same one."""
+    """Distance and |cos| of the angle between the axes of every pair of cells closer than `longest`
+    and, where `members` names the aggregate of each, in the same one."""
     distances, cosines = [], []
     for i in range(len(centres) - 1):
         distance = np.linalg.norm(box.separations(centres[i], centres[i + 1:]), axis=1)

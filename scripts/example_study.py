@@ -12,7 +12,8 @@ POTENTIALS = os.path.join(TOP, "potentials")
 
 
 def options(description, series=()):
-    """Parser of the options that all have, read by command_line.parse. `series`: what --only chooses from."""
+    """Parser of the options that all have, read by command_line.parse. `series`: what --only
+    chooses from."""
     parser = command_line.parser(description)
     command_line.add_results(parser)
     parser.add_argument("--lmp", type=os.path.abspath, default=os.path.join(TOP, "build", "lmp_rbc"))
@@ -35,7 +36,8 @@ def wanted(arguments, series):
 
 
 def run_script(arguments, script, folder, variables, templates=POTENTIALS):
-    """Runs an input script in a folder; a list gives a variable several values. Returns what subprocess.run does."""
+    """Runs an input script in a folder; a list gives a variable several values. Returns what
+    subprocess.run does."""
     command = [arguments.lmp, "-in", script, "-log", "none", "-var", "templates", templates]
     for name, value in variables.items():
         command += ["-var", name, *map(str, value if isinstance(value, list) else [value])]
@@ -45,9 +47,11 @@ def run_script(arguments, script, folder, variables, templates=POTENTIALS):
 
 
 def run_cases(arguments, path, columns, cases, run):
-    """{label: rows of numbers} of all (series, label, variables) of `cases`, by run(arguments, variables).
+    """{label: rows of numbers} of all (series, label, variables) of `cases`, by run(arguments,
+    variables).
 
     The CSV file keeps them: what it holds is not run again.
+    
     """
     table = {}
     if os.path.exists(path):

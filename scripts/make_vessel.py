@@ -1,8 +1,10 @@
 #!/usr/bin/python3
-"""Write the surface of a vessel along x as an STL file, for `region rbc/mesh` or `create_atoms ... mesh`.
+"""Write the surface of a vessel along x as an STL file, for `region rbc/mesh` or `create_atoms ...
+mesh`.
 
-The vessel begins at x = 0, ends at x = length and is open there: in a box that is periodic in x and as long, it goes
-on for ever. Its axis is y = z = 0 (shift it with the region). All lengths are in one unit, um in `units micro`.
+The vessel begins at x = 0, ends at x = length and is open there: in a box that is periodic in x and
+as long, it goes on for ever. Its axis is y = z = 0 (shift it with the region). All lengths are in
+one unit, um in `units micro`.
 
 Shapes
   tube         straight and round
@@ -35,7 +37,8 @@ BLEND = 0.15          # of the parent's diameter: where branches meet
 
 
 def swept(radius, length, edge):
-    """Points and triangles of a surface of revolution about x, from rings that are turned by half a step each."""
+    """Points and triangles of a surface of revolution about x, from rings that are turned by half a
+    step each."""
     widest = radius(np.linspace(0, length, 1001)).max()
     around = max(8, round(2 * np.pi * widest / edge))
     rings = 2 * max(2, round(length / (edge * np.sqrt(3) / 2) / 2))    # even: the last is turned as the first
@@ -78,7 +81,8 @@ def rise(t):
 
 
 def fork(options):
-    """Points and triangles: a contour of the distance from the walls of both branches, blended where they meet."""
+    """Points and triangles: a contour of the distance from the walls of both branches, blended
+    where they meet."""
     length, parent, daughter = options.length, options.diameter / 2, options.daughter_diameter / 2
     s = np.linspace(-parent, length + parent, CENTRELINE)
     part = rise((s / length - 0.1) / 0.3) * rise((0.9 - s / length) / 0.3)

@@ -1,18 +1,19 @@
 #!/usr/bin/python3
-"""Tumbling and tank-treading of one cell from a dump of its vertices (`dump custom ... id xu yu zu`).
+"""Tumbling and tank-treading of one cell from a dump of its vertices (`dump custom ... id xu yu
+zu`).
 
 In the plane of shear (x, z) the shape turns with the long axis of the vertices' second moments, the
-membrane with the rotation that best maps the vertices from one frame to the next. A tumbling cell turns
-as one: both rates agree. A tank-treading cell keeps its shape's angle while the membrane runs around it.
-Rates are given over the shear rate; a rigid sphere turns at -1/2.
+membrane with the rotation that best maps the vertices from one frame to the next. A tumbling cell
+turns as one: both rates agree. A tank-treading cell keeps its shape's angle while the membrane runs
+around it. Rates are given over the shear rate; a rigid sphere turns at -1/2.
 
-The rotation that maps best is not how often the membrane goes around: on an ellipse of axes a and b it is
-2 a b / (a^2 + b^2) of that. The frequency that experiments count, the revolutions of the vertices around the
-centre, is given beside it.
+The rotation that maps best is not how often the membrane goes around: on an ellipse of axes a and b
+it is 2 a b / (a^2 + b^2) of that. The frequency that experiments count, the revolutions of the
+vertices around the centre, is given beside it.
 
 Means are over whole half turns of a shape that tumbles.
 
-    membrane_motion.py vertices.dump --timestep DT --shear-rate G [-o motion.dat] [--from STRAIN]
+membrane_motion.py vertices.dump --timestep DT --shear-rate G [-o motion.dat] [--from STRAIN]
 """
 
 
@@ -48,9 +49,11 @@ def angles(positions):
 
 
 def revolutions(positions, clearance=0.4):
-    """How often each vertex has gone around the centre in the x-z plane since the first frame, [frame, vertex].
+    """How often each vertex has gone around the centre in the x-z plane since the first frame,
+    [frame, vertex].
 
     Only vertices that stay further than `clearance` from the axis through the centre along y.
+    
     """
     plane = positions[:, :, [0, 2]] - positions[:, :, [0, 2]].mean(axis=1, keepdims=True)
     plane = plane[:, np.linalg.norm(plane, axis=2).min(axis=0) > clearance]
@@ -59,7 +62,8 @@ def revolutions(positions, clearance=0.4):
 
 
 def after_half_turns(time, shape):
-    """When a shape has made as many half turns as it completes; the last time of all if it completes none."""
+    """When a shape has made as many half turns as it completes; the last time of all if it
+    completes none."""
     turned = np.maximum.accumulate(abs(shape - shape[0]) / np.pi)
     whole = np.floor(turned[-1] + 1e-9)
     return time[-1] if whole == 0 else np.interp(whole, turned, time)

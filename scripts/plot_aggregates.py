@@ -1,11 +1,13 @@
 #!/usr/bin/python3
-"""Sizes of aggregates at several shear rates: histogram by powers of two and median, from `compute rbc/aggregate`:
+"""Sizes of aggregates at several shear rates: histogram by powers of two and median, from `compute
+rbc/aggregate`:
 
-  fix sizes   all ave/time 1000 1 1000 c_agg[*] file sizes.dat
+fix sizes   all ave/time 1000 1 1000 c_agg[*] file sizes.dat
   fix classes all ave/time 1000 1 1000 c_agg[*] mode vector file classes.dat
   plot_aggregates.py --case 10 low/classes.dat low/sizes.dat --case 100 high/classes.dat high/sizes.dat -o sizes.png
 
-Fractions are of the aggregates of all frames together. With --no-singles single cells do not count as aggregates.
+Fractions are of the aggregates of all frames together. With --no-singles single cells do not count
+as aggregates.
 """
 from typing import NamedTuple
 
@@ -37,7 +39,8 @@ def mean_classes(path, start=0):
 
 
 def mean_median(path, start=0):
-    """Mean and standard deviation over frames of the median size, from a file with the vector of compute rbc/aggregate."""
+    """Mean and standard deviation over frames of the median size, from a file with the vector of
+    compute rbc/aggregate."""
     table = read_table(path)
     steps = next(iter(table.values()))
     medians = [values for name, values in table.items() if name.endswith("[3]")]

@@ -1,8 +1,9 @@
 #!/usr/bin/python3
-"""Gaps between the surfaces of neighboring cells in .vtp files of fix rbc/vtk: of each two cells nearer than a reach the
-least distance of all their triangles, 0 where they cut each other; writes a row for each file to a CSV file.
+"""Gaps between the surfaces of neighboring cells in .vtp files of fix rbc/vtk: of each two cells
+nearer than a reach the least distance of all their triangles, 0 where they cut each other; writes a
+row for each file to a CSV file.
 
-  surface_gaps.py cells.*.vtp --box 47.6 47.6 30 --walls z -o gaps.csv
+surface_gaps.py cells.*.vtp --box 47.6 47.6 30 --walls z -o gaps.csv
 """
 import csv
 

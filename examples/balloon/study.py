@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""Pressure of a balloon against its stretch, of the membrane and of the fluid: laws, mesh, grid spacing, speed.
+"""Pressure of a balloon against its stretch, of the membrane and of the fluid: laws, mesh, grid
+spacing, speed.
 
-Runs in.balloon for a list of cases, compares with the closed forms and writes balloon.csv and balloon.png to a folder. Cases
-that its balloon.csv already holds are not run again.
+Runs in.balloon for a list of cases, compares with the closed forms and writes balloon.csv and
+balloon.png to a folder. Cases that its balloon.csv already holds are not run again.
 
-    study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1] [--only law mesh]
+study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1] [--only law mesh]
 """
 
 import os
@@ -47,7 +48,8 @@ def closed_form(law, stretch):
 
 
 def reference(law):
-    """Stretches and p R / Gs of the closed forms as tabulated in examples/reference; none for C2/C1 = 0.1."""
+    """Stretches and p R / Gs of the closed forms as tabulated in examples/reference; none for C2/C1
+    = 0.1."""
     name, column, value = {"neo": ("08a_mooney_rivlin_membrane_closed_forms.csv", "psi", "1"),
                            "skalak": ("08b_skalak_closed_forms.csv", "C", "1")}[law]
     rows = [row for row in read_csv(os.path.join(HERE, "..", "reference", name)) if row[column] == value]
@@ -55,7 +57,8 @@ def reference(law):
 
 
 def read_pressure(path):
-    """Pressure of a `dump grid` file as [z, y, x] and the coordinates of the cells along an axis."""
+    """Pressure of a `dump grid` file as [z, y, x] and the coordinates of the cells along an
+    axis."""
     with open(path) as file:
         lines = file.read().splitlines()
     after = lambda name: next(n for n, line in enumerate(lines) if line.startswith("ITEM: " + name)) + 1  # noqa: E731

@@ -1,8 +1,9 @@
 #!/usr/bin/python3
-"""Which hematocrits and shear rates run through with which kernel, and how viscous the blood is. Runs in.blood over a
-strain of 5 for each (six minutes of processor time in all), writes blood.csv to a folder.
+"""Which hematocrits and shear rates run through with which kernel, and how viscous the blood is.
+Runs in.blood over a strain of 5 for each (six minutes of processor time in all), writes blood.csv
+to a folder.
 
-    study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1] [--only roma3]
+study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1] [--only roma3]
 """
 import itertools
 import re

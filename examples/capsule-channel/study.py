@@ -1,11 +1,12 @@
 #!/usr/bin/python3
-"""A capsule in a tube: speed and outline over a/R and the capillary number, and the stiff limit against the exact one.
+"""A capsule in a tube: speed and outline over a/R and the capillary number, and the stiff limit
+against the exact one.
 
-Runs in.capsule-channel for a list of cases, writes capsule-channel.csv and outlines.csv to a folder, and once it has all cases
-draws outline.png (as Figure 3 of the paper) and capsule-channel.png. Cases that its capsule-channel.csv already holds are not run
-again.
+Runs in.capsule-channel for a list of cases, writes capsule-channel.csv and outlines.csv to a
+folder, and once it has all cases draws outline.png (as Figure 3 of the paper) and
+capsule-channel.png. Cases that its capsule-channel.csv already holds are not run again.
 
-    study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1] [--only size Ca stiff]
+study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1] [--only size Ca stiff]
 """
 import csv
 import sys
@@ -61,8 +62,9 @@ def read_dump(path):
 
 
 def outline(path, shape="capsule_2562", tube=2.0):
-    """x and r of the meridian, over the radius of the tube, from the middle of the capsule; rms distance of the vertices
-    from it. Front at the right. A series in the angle that a vertex had on the sphere, so that the back may be hollow."""
+    """x and r of the meridian, over the radius of the tube, from the middle of the capsule; rms
+    distance of the vertices from it. Front at the right. A series in the angle that a vertex had on
+    the sphere, so that the back may be hollow."""
     x = read_dump(path)[1][:, 1:4] / tube
     place = read_molecule(Path(POTENTIALS) / f"{shape}.mol")[0]
     cosine = place[:, 0] / np.linalg.norm(place, axis=1)
@@ -78,7 +80,8 @@ def outline(path, shape="capsule_2562", tube=2.0):
 
 
 def slice_of_flow(path, tube=2.0, mean=1.0):
-    """Streamwise velocity over the mean in the plane through the axis, and the coordinates over the tube's diameter."""
+    """Streamwise velocity over the mean in the plane through the axis, and the coordinates over the
+    tube's diameter."""
     lines = Path(path).read_text(encoding="ascii").splitlines()
     counts = next(n for n, line in enumerate(lines) if line.startswith("ITEM: GRID SIZE")) + 1
     nx, ny, nz = map(int, lines[counts].split())
@@ -90,7 +93,8 @@ def slice_of_flow(path, tube=2.0, mean=1.0):
 
 
 def measure(folder, variables):
-    """A row of COLUMNS: the mean over the last tenth of the run, and the change of the speed in it."""
+    """A row of COLUMNS: the mean over the last tenth of the run, and the change of the speed in
+    it."""
     table = read_table(Path(folder) / "capsule.dat")
     last = table["v_time"] > 0.9 * table["v_time"][-1]
     values = [table[name][last].mean() for name in ("v_U", "v_long", "v_width", "v_pressure")]
@@ -135,7 +139,8 @@ def outlines(path):
 
 
 def draw_outline(folder):
-    """The counterpart of the paper's Figure 3: velocity over its mean, and the outline, in diameters of the tube."""
+    """The counterpart of the paper's Figure 3: velocity over its mean, and the outline, in
+    diameters of the tube."""
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """Error of the capsule in shear against grid spacing, vertices, time step, box and run time.
 
-Runs in.capsule-shear for a list of cases, writes study.csv to a folder, and once it has all cases compares D(t) with the
-references of examples/reference and draws study.png. Cases that its study.csv already holds are not run again.
+Runs in.capsule-shear for a list of cases, writes study.csv to a folder, and once it has all cases
+compares D(t) with the references of examples/reference and draws study.png. Cases that its
+study.csv already holds are not run again.
 
-    study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--only base] [--ranks 1]
+study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--only base] [--ranks 1]
 """
 
 import csv
@@ -108,7 +109,8 @@ def to_zero_dx(points):
 
 
 def to_infinite_box(points):
-    """Limit of (box, value): periodic images and plates act as 1/box^3; least squares over boxes of 8 and more."""
+    """Limit of (box, value): periodic images and plates act as 1/box^3; least squares over boxes of
+    8 and more."""
     box, value = np.array([point for point in sorted(points) if point[0] >= 8]).T
     return np.polyfit(box**-3.0, value, 1)[-1]
 

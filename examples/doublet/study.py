@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """Shape of a pair of adhered red cells against the work of adhesion.
 
-Runs in.doublet (about half a minute each on one core), writes doublet.csv and shapes.csv to a folder, and draws doublet.png
-there. With --draw only the picture, from these tables, or where there are none from those of the repository.
+Runs in.doublet (about half a minute each on one core), writes doublet.csv and shapes.csv to a
+folder, and draws doublet.png there. With --draw only the picture, from these tables, or where there
+are none from those of the repository.
 
-    study.py --output FOLDER [--draw]
+study.py --output FOLDER [--draw]
 """
 
 import csv
@@ -34,8 +35,9 @@ def last_frame(path):
 
 
 def contact_zone(x, cell, in_contact):
-    """Centre of the vertices in contact, direction along which they bend most, normal of their plane (from cell 1 to 2), and
-    the amplitude A of z = A sin(pi s / s_max) + B s, their height above the plane fitted along that direction."""
+    """Centre of the vertices in contact, direction along which they bend most, normal of their
+    plane (from cell 1 to 2), and the amplitude A of z = A sin(pi s / s_max) + B s, their height
+    above the plane fitted along that direction."""
     points = x[in_contact]
     centre = points.mean(axis=0)
     directions = np.linalg.svd(points - centre, full_matrices=False)[2]
@@ -52,7 +54,8 @@ def contact_zone(x, cell, in_contact):
 
 
 def section(x, triangles, centre, along, normal):
-    """Segments in which the plane through the centre with these two directions cuts the triangles, in its coordinates."""
+    """Segments in which the plane through the centre with these two directions cuts the triangles,
+    in its coordinates."""
     across = np.cross(along, normal)
     height = (x - centre) @ across
     flat = np.stack([(x - centre) @ along, (x - centre) @ normal], axis=1)

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""Viscosity, hematocrit and cell-free layer of blood in tubes, over time, beside the fits of Pries et al. to measurements.
+"""Viscosity, hematocrit and cell-free layer of blood in tubes, over time, beside the fits of Pries
+et al. to measurements.
 
-Runs in.fahraeus in a folder for each case, and once without cells, writes fahraeus.csv and draws fahraeus.png. Cases of
-which the folder is there already are not run again.
+Runs in.fahraeus in a folder for each case, and once without cells, writes fahraeus.csv and draws
+fahraeus.png. Cases of which the folder is there already are not run again.
 
-  study.py --output FOLDER [--folder runs] [--lmp ../../build/lmp_rbc] [--only d20h30 d10h30]
+study.py --output FOLDER [--folder runs] [--lmp ../../build/lmp_rbc] [--only d20h30 d10h30]
 """
 import csv
 import subprocess
@@ -34,7 +35,8 @@ PICTURES = "d20h45", "d40h45", "d10h30"
 
 
 def pries_viscosity(diameter, discharge):
-    """Relative apparent viscosity (Pries et al. 1992) for a discharge hematocrit; diameter in um."""
+    """Relative apparent viscosity (Pries et al. 1992) for a discharge hematocrit; diameter in
+    um."""
     at45 = 220 * np.exp(-1.3 * diameter) + 3.2 - 2.44 * np.exp(-0.06 * diameter**0.645)
     wide = 1 / (1 + 1e-11 * diameter**12)
     exponent = (0.8 + np.exp(-0.075 * diameter)) * (wide - 1) + wide
@@ -56,7 +58,8 @@ def read_history(path):
 
 
 def cell_free_layer(points, axis, diameter, length, views=12, slice_length=0.5):
-    """Distance from the wall of the cells' silhouette, seen from the side; mean over views and slices along the axis."""
+    """Distance from the wall of the cells' silhouette, seen from the side; mean over views and
+    slices along the axis."""
     slices = max(1, round(length / slice_length))
     slice_of = np.floor(points[:, 0] / length * slices).astype(int) % slices
     gaps = []

@@ -1,11 +1,13 @@
 #!/usr/bin/python3
-"""Relaxation of a stretched red cell for several viscosities of its membrane, beside the cells of Hochmuth et al. (1979).
+"""Relaxation of a stretched red cell for several viscosities of its membrane, beside the cells of
+Hochmuth et al. (1979).
 
-Runs in.relaxation (2 to 5 minutes each on one core) for all cases, or those named with --case, keeps the curves in
-relaxation.csv of a folder, draws relaxation.png there and prints the time constants. With --draw only the picture and the numbers,
-from that table, or where there is none from that of the repository.
+Runs in.relaxation (2 to 5 minutes each on one core) for all cases, or those named with --case,
+keeps the curves in relaxation.csv of a folder, draws relaxation.png there and prints the time
+constants. With --draw only the picture and the numbers, from that table, or where there is none
+from that of the repository.
 
-    study.py --output FOLDER [--case thinning] [--draw]
+study.py --output FOLDER [--case thinning] [--draw]
 """
 
 import csv
@@ -28,7 +30,8 @@ LABELS = {"thinning": "healthy.material: η_m falls", "300": "η_m = 300 pg/µs"
 
 
 def curve(t, parameters):
-    """L/W = m (1 + b e) / (1 - b e) with e = exp(-t/tc) (Hochmuth, Worthy and Evans, Biophys. J. 26 (1979) 101)."""
+    """L/W = m (1 + b e) / (1 - b e) with e = exp(-t/tc) (Hochmuth, Worthy and Evans, Biophys. J. 26
+    (1979) 101)."""
     tc, end, first = parameters
     decay = (first - end) / (first + end) * np.exp(-t / tc)
     return end * (1 + decay) / (1 - decay)

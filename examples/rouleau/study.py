@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""A rouleau sheared at rising rates, with four works of adhesion: aggregates and energy of adhesion over the strain, and
-the cells halfway through each rate. Runs in.rouleau (three minutes in all on one core), writes rouleau.csv to a folder and draws
-rouleau.png there.
+"""A rouleau sheared at rising rates, with four works of adhesion: aggregates and energy of adhesion
+over the strain, and the cells halfway through each rate. Runs in.rouleau (three minutes in all on
+one core), writes rouleau.csv to a folder and draws rouleau.png there.
 
-    study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1]
+study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1]
 """
 import csv
 import subprocess

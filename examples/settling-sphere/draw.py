@@ -1,8 +1,9 @@
 #!/usr/bin/python3
-"""Draws settling.dat and scene.dat, written by in.settling-sphere: the speed of the sphere against the Basset-Boussinesq-Oseen
-equation of a sphere alone (short times) and the steady drag of a cubic array (long times).
+"""Draws settling.dat and scene.dat, written by in.settling-sphere: the speed of the sphere against
+the Basset-Boussinesq-Oseen equation of a sphere alone (short times) and the steady drag of a cubic
+array (long times).
 
-    draw.py RUN --output FOLDER      # RUN: the folder of the run
+draw.py RUN --output FOLDER      # RUN: the folder of the run
 """
 
 import sys
@@ -29,20 +30,22 @@ class Scene(NamedTuple):
 
 
 def hydrodynamic_radius(scene):
-    """Of markers at radius 1 with the kernel peskin4: 0.40 dx + 0.80 dx^2 more (bench/drag measures it)."""
+    """Of markers at radius 1 with the kernel peskin4: 0.40 dx + 0.80 dx^2 more (bench/drag measures
+    it)."""
     h = scene.side / scene.cells
     return 1 + 0.40 * h + 0.80 * h * h
 
 
 def array_drag(scene, radius):
-    """Drag factor of a simple cubic array, Sangani & Acrivos, Int. J. Multiphase Flow 8 (1982) 343."""
+    """Drag factor of a simple cubic array, Sangani & Acrivos, Int. J. Multiphase Flow 8 (1982)
+    343."""
     c = 4 * np.pi / 3 * (radius / scene.side) ** 3
     return 1 / (1 - 1.7601 * c ** (1 / 3) + c - 1.5593 * c**2 + 3.9799 * c ** (8 / 3) - 3.0734 * c ** (10 / 3))
 
 
 def alone(scene, radius, times):
-    """Basset-Boussinesq-Oseen: (m + V + V/2) u' + 6 pi a (u + a int u'(s) / sqrt(pi (t - s)) ds) = F, with the
-    acceleration constant over each interval."""
+    """Basset-Boussinesq-Oseen: (m + V + V/2) u' + 6 pi a (u + a int u'(s) / sqrt(pi (t - s)) ds) =
+    F, with the acceleration constant over each interval."""
     volume = 4 * np.pi / 3 * radius**3
     inertia, drag = scene.mass + 1.5 * volume, 6 * np.pi * radius
     speed, acceleration = [0.0], []

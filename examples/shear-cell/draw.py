@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""Picture of a run of in.shear-cell: D and angles against strain, above snapshots of the cell. Prints the
-ranges of D (after a strain of 5), of the area, and the largest error of the volume.
+"""Picture of a run of in.shear-cell: D and angles against strain, above snapshots of the cell.
+Prints the ranges of D (after a strain of 5), of the area, and the largest error of the volume.
 
-    draw.py RUN --output FOLDER
+draw.py RUN --output FOLDER
 
 RUN is where cell.dat, vertices.dump, scene.dat and cells.*.vtp are; shear-cell.png goes to FOLDER.
 """
@@ -26,7 +26,8 @@ TUMBLE = 9.2  # strain of half a turn at 100 /s in plasma
 
 
 def snapshots(folder, strain):
-    """(step, image) of surfaces over one tumble in the middle of the run, seen along the vorticity."""
+    """(step, image) of surfaces over one tumble in the middle of the run, seen along the
+    vorticity."""
     steps, files = zip(*surfaces(folder))
     strains = np.array(steps) * strain
     wanted = strains[-1] / 2 + np.linspace(0, min(TUMBLE, strains[-1] / 2), SNAPSHOTS)

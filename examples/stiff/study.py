@@ -1,10 +1,12 @@
 #!/usr/bin/python3
-"""A cell a thousand times as stiff as a healthy one: how it turns, and what its stiffness costs each integrator.
+"""A cell a thousand times as stiff as a healthy one: how it turns, and what its stiffness costs
+each integrator.
 
-Runs in.stiff for a list of cases, measures the period of its tumbling against Jeffery's, writes stiff.csv to a folder and once it
-has all cases draws stiff.png there. Cases that its stiff.csv already holds are not run again.
+Runs in.stiff for a list of cases, measures the period of its tumbling against Jeffery's, writes
+stiff.csv to a folder and once it has all cases draws stiff.png there. Cases that its stiff.csv
+already holds are not run again.
 
-    study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1] [--only step rate]
+study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1] [--only step rate]
 """
 
 import csv

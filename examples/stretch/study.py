@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""Diameters of a red cell in optical tweezers against load: material, contact, mesh, grid spacing and box.
+"""Diameters of a red cell in optical tweezers against load: material, contact, mesh, grid spacing
+and box.
 
-Runs in.stretch for a list of cases, compares with the references of examples/reference and writes stretch.csv and
-stretch.png to a folder. Cases that its stretch.csv already holds are not run again.
+Runs in.stretch for a list of cases, compares with the references of examples/reference and writes
+stretch.csv and stretch.png to a folder. Cases that its stretch.csv already holds are not run again.
 
-    study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1] [--only set mesh]
+study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1] [--only set mesh]
 """
 
 import os
@@ -56,7 +57,8 @@ def cases():
 
 
 def run(arguments, variables):
-    """Rows of RESULTS that in.stretch writes; loads at which the run stopped with an error are missing."""
+    """Rows of RESULTS that in.stretch writes; loads at which the run stopped with an error are
+    missing."""
     with open(os.path.join(HERE, "in.stretch")) as file:
         script = file.read()
     assert LAW in script and AREA in script
@@ -89,7 +91,8 @@ def reference(name):
 
 
 def deviations(rows):
-    """(load, axial, transverse) of a run as deviations from the experiment over the length of its error bar."""
+    """(load, axial, transverse) of a run as deviations from the experiment over the length of its
+    error bar."""
     data = reference("01a_stretch_mills2004_errorbars.csv")
     found = []
     for row in rows:

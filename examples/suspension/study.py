@@ -1,13 +1,15 @@
 #!/usr/bin/python3
-"""Blood sheared at 10, 60 and 100 /s, with adhesion and without: runs in.suspension in a folder for each case, and draws the
-relative viscosity, the sizes of aggregates as Figure 12 of the paper, the gaps between cells, and the cells.
+"""Blood sheared at 10, 60 and 100 /s, with adhesion and without: runs in.suspension in a folder for
+each case, and draws the relative viscosity, the sizes of aggregates as Figure 12 of the paper, the
+gaps between cells, and the cells.
 
-  study.py --output FOLDER --ranks 2      # cases of which the folder is there already are not run again
+study.py --output FOLDER --ranks 2      # cases of which the folder is there already are not run
+again
 
 Folders may hold runs of different numbers of cells.
 
-Writes suspension.csv and suspension.png to FOLDER, where the runs are, too, without --folder. --only names cases: a10, a60,
-a100 adhesive, r10, r60, r100 repulsive.
+Writes suspension.csv and suspension.png to FOLDER, where the runs are, too, without --folder.
+--only names cases: a10, a60, a100 adhesive, r10, r60, r100 repulsive.
 """
 import csv
 import re
@@ -54,7 +56,8 @@ def log_table(path):
 
 
 def gaps(folder, cells):
-    """Least distances of neighboring cells in all files of surfaces, 0 where they cut each other."""
+    """Least distances of neighboring cells in all files of surfaces, 0 where they cut each
+    other."""
     edge = (cells * VOLUME / HEMATOCRIT / GAP)**0.5
     return [pair_distances(read_cells(name), np.array([edge, edge, GAP]), (True, True, False), REACH)
             for _, name in surfaces(folder)]

@@ -1,12 +1,14 @@
 #!/usr/bin/python3
-"""Tank-treading of a red cell beside experiments: frequency, inclination, and the stress below which the cell tumbles.
+"""Tank-treading of a red cell beside experiments: frequency, inclination, and the stress below
+which the cell tumbles.
 
-Runs in.tank-treading at many shear rates, a fraction of a minute to two minutes each on one core, and keeps what it
-finds in tank-treading.csv of a folder: all parts, or those named, for which it measures anew (--part frequency --case thinning).
-Then it prints the tables and draws tank-treading.png and inclination.png there; with --draw it does only that, from the table of
-the repository if the folder has none.
+Runs in.tank-treading at many shear rates, a fraction of a minute to two minutes each on one core,
+and keeps what it finds in tank-treading.csv of a folder: all parts, or those named, for which it
+measures anew (--part frequency --case thinning). Then it prints the tables and draws
+tank-treading.png and inclination.png there; with --draw it does only that, from the table of the
+repository if the folder has none.
 
-    study.py --output FOLDER [--part frequency] [--case thinning] [--draw]
+study.py --output FOLDER [--part frequency] [--case thinning] [--draw]
 """
 
 import csv
@@ -46,7 +48,8 @@ Row = namedtuple("Row", "part case medium rate frequency inclination range")
 
 
 def frequency(strain, turns):
-    """Turns per strain over as many whole half turns as there are: the motion repeats itself after each."""
+    """Turns per strain over as many whole half turns as there are: the motion repeats itself after
+    each."""
     whole = max(np.floor(2 * turns[-1]), 1) / 2
     if turns[-1] < whole:
         return turns[-1] / (strain[-1] - strain[0])
@@ -56,7 +59,8 @@ def frequency(strain, turns):
 
 
 def motion(folder, step, start=FROM):
-    """Frequency over the shear rate, mean inclination in degrees and its range, of the strains from `start`."""
+    """Frequency over the shear rate, mean inclination in degrees and its range, of the strains from
+    `start`."""
     steps, positions = read_dump(Path(folder) / "vertices.dump")
     strain = steps * step
     late = strain >= min(start, strain[-1] / 2)

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """Cells per block over time, of a straight tube and of one with a throat, as Figure 7 of the paper.
 
-    draw.py straight/ throat/ --output FOLDER
+draw.py straight/ throat/ --output FOLDER
 
-The first two folders are those in which in.throat ran, with -var throat 3 and without. Writes throat.png and throat.csv: the
-lines of both blocks.dat.
+The first two folders are those in which in.throat ran, with -var throat 3 and without. Writes
+throat.png and throat.csv: the lines of both blocks.dat.
 """
 import csv
 import sys

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""Turning of a cell near the wall of a tube and of one near its axis, as Figure 5 of the paper, and a picture as Figure 4.
+"""Turning of a cell near the wall of a tube and of one near its axis, as Figure 5 of the paper, and
+a picture as Figure 4.
 
-Runs in.tube-poiseuille in a folder, unless it is there, and writes tube-poiseuille.csv (a row per cell) and
-tube-poiseuille.png.
+Runs in.tube-poiseuille in a folder, unless it is there, and writes tube-poiseuille.csv (a row per
+cell) and tube-poiseuille.png.
 
-  study.py --output FOLDER [--folder run] [--lmp ../../build/lmp_rbc]
+study.py --output FOLDER [--folder run] [--lmp ../../build/lmp_rbc]
 """
 import csv
 import subprocess
@@ -27,7 +28,8 @@ START = 2.0                                   # time * mean velocity / D from wh
 
 
 class Cells:
-    """Histories [frame, cell] of a run: time, distance from the axis, deformation, velocity, angles."""
+    """Histories [frame, cell] of a run: time, distance from the axis, deformation, velocity,
+    angles."""
 
     def __init__(self, folder):
         table = np.loadtxt((folder / "tube.dat").read_text(encoding="utf-8").rpartition("\n")[0].splitlines())
@@ -54,22 +56,25 @@ class Cells:
 
 
 def with_sense(axes):
-    """The axes [frame, cell] with the sense that each had in the frame before: an axis alone has none."""
+    """The axes [frame, cell] with the sense that each had in the frame before: an axis alone has
+    none."""
     flips = np.where(np.einsum("tci,tci->tc", axes[1:], axes[:-1]) < 0, -1, 1)
     return np.concatenate([axes[:1], axes[1:] * np.cumprod(flips, axis=0)[..., None]])
 
 
 def in_plane_angle(short, outward):
-    """Angle, continuous in time, by which a disc is turned in the plane of axis and radius; 0 along the wall."""
+    """Angle, continuous in time, by which a disc is turned in the plane of axis and radius; 0 along
+    the wall."""
     radial = np.einsum("tci,tci->tc", short[..., 1:], outward)
     return np.degrees(np.unwrap(np.arctan2(short[..., 0], radial), axis=0))
 
 
 def membrane_angles(cells, folder):
-    """Angles [file, cell] between the disc's normal and the line from one half of the membrane to the other.
+    """Angles [file, cell] between the disc's normal and the line from one half of the membrane to
+    the other.
 
-    The halves are those on either side of the disc at rest. 0 as long as the cell turns as a rigid body, up to 90 where the
-    membrane runs around it.
+    The halves are those on either side of the disc at rest. 0 as long as the cell turns as a rigid
+    body, up to 90 where the membrane runs around it.
     """
     sides, angles = None, []
     for step, name in surfaces(folder):
@@ -103,7 +108,8 @@ def measure(cells, membrane):
 
 
 def snapshot(surface, wall, axis, path):
-    """The cells seen from the side, flow to the right; the two cells in their colors, the others pale."""
+    """The cells seen from the side, flow to the right; the two cells in their colors, the others
+    pale."""
     import matplotlib.colors
     from render_cells import (add_renderer, aim, ambient_occlusion, display, light, outline_actor, read_surface, refine, save,
                               surface_actor, vtkRenderWindow)

@@ -1,5 +1,6 @@
-"""pair_style rbc/jkr through LAMMPS: forces against its energy, equation 7, flat patches of different meshes, and that the
-result depends neither on ranks, newton nor on where in the box the cells are."""
+"""pair_style rbc/jkr through LAMMPS: forces against its energy, equation 7, flat patches of
+different meshes, and that the result depends neither on ranks, newton nor on where in the box the
+cells are."""
 
 import io
 import sys
@@ -110,7 +111,8 @@ class Forces(unittest.TestCase):
 
 
 class InPlasma(unittest.TestCase):
-    """Forces within steps too, with ghosts that have moved: a cell is carried off from another in shear."""
+    """Forces within steps too, with ghosts that have moved: a cell is carried off from another in
+    shear."""
 
     STEPS = 150
 
@@ -193,7 +195,8 @@ def flat_disc(frequency):
 
 
 def smooth_energy(gap):
-    """Of two of the smooth discs face to face: twice a half of the integral of the energy per area over a face."""
+    """Of two of the smooth discs face to face: twice a half of the integral of the energy per area
+    over a face."""
     r = np.linspace(0, 1, 2001) * RADIUS
     z = RADIUS * height(r / RADIUS)
     # distance from (r, z) of the one to the face of the other, the mirror image about the middle of the gap

@@ -1,4 +1,5 @@
-"""Forces of fix rbc/membrane through LAMMPS against its energy, and what fix_modify makes of both."""
+"""Forces of fix rbc/membrane through LAMMPS against its energy, and what fix_modify makes of
+both."""
 
 import unittest
 

@@ -1,4 +1,5 @@
-"""Cells in periodic boxes: image flags may be missing or wrong at the start of a run, and count within it."""
+"""Cells in periodic boxes: image flags may be missing or wrong at the start of a run, and count
+within it."""
 
 import unittest
 

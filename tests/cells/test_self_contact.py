@@ -1,5 +1,5 @@
-"""Cells that touch themselves (pair_style rbc/jkr with self yes): two faces that meet outside, through a fold, and inside,
-through the cell."""
+"""Cells that touch themselves (pair_style rbc/jkr with self yes): two faces that meet outside,
+through a fold, and inside, through the cell."""
 
 import io
 import sys
@@ -23,7 +23,8 @@ def plate(frequency, thickness):
 
 
 def folded(points, gap, thickness):
-    """Bent about the y axis to a U whose arms are `gap` apart, faces that were the top of the plate inside."""
+    """Bent about the y axis to a U whose arms are `gap` apart, faces that were the top of the plate
+    inside."""
     bend = (gap + thickness) / 2
     arc = np.clip(points[:, 0], -np.pi / 2 * bend, np.pi / 2 * bend)
     along, angle = points[:, 0] - arc, arc / bend
@@ -63,7 +64,8 @@ class SelfContact(unittest.TestCase):
     NOISE = "\ndisplace_atoms all random 0.01 0.01 0.01 5"    # no vertex is as near to two places
 
     def scene(self, name, self_contact="self yes", coeff=ADHESIVE, noise="", frequency=8, **changes):
-        """The scene, its files, rest shape and triangles, which vertices lie in the flat parts that face each other."""
+        """The scene, its files, rest shape and triangles, which vertices lie in the flat parts that
+        face each other."""
         thickness = self.GAP if name == "inside" else self.THICK
         rest, triangles = plate(frequency, thickness)
         x, flat = rest, np.hypot(rest[:, 0], rest[:, 1]) < self.NEAR

@@ -1,9 +1,11 @@
-"""A run in pieces, or continued from a restart file, is that of one piece: bit for bit on the same ranks.
+"""A run in pieces, or continued from a restart file, is that of one piece: bit for bit on the same
+ranks.
 
-    test_exact_restart.py --all [words]
+test_exact_restart.py --all [words]
 
-runs all combinations that the tables below make (those with the words in their names), and prints how many failed. The
-environment is that of ctest (see helpers/lammps_case.py); a few of them run in CI.
+runs all combinations that the tables below make (those with the words in their names), and prints
+how many failed. The environment is that of ctest (see helpers/lammps_case.py); a few of them run in
+CI.
 """
 
 import itertools
@@ -132,7 +134,8 @@ class OtherRanks(unittest.TestCase):
 
 
 class OtherLayouts(unittest.TestCase):
-    """Restart files in which fix rbc/ib keeps other numbers than now: 2 of scheme direct, then 13 of the steps."""
+    """Restart files in which fix rbc/ib keeps other numbers than now: 2 of scheme direct, then 13
+    of the steps."""
 
     LINES = dict(ib=SHEAR["ib"].replace("midpoint", "rkc 4 order 3"), timestep="timestep 100",
                  neighbor=SHEAR["neighbor"] + "\nneigh_modify every 1 delay 0 check no")

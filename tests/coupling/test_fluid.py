@@ -1,5 +1,5 @@
-"""Flows of fix rbc/fluid by itself against the exact solutions of the discrete equations, and what it offers to
-dumps, fix ave/grid, thermo and variables."""
+"""Flows of fix rbc/fluid by itself against the exact solutions of the discrete equations, and what
+it offers to dumps, fix ave/grid, thermo and variables."""
 
 import re
 import unittest
@@ -32,8 +32,8 @@ VELOCITY = [f"velocity[{n}]" for n in (1, 2, 3)]
 
 
 def discrete_profile(force, lower, upper):
-    """Exact solution of the discrete momentum balance at the cell centres. Ghosts mirror the plates; a plate
-    whose velocity is None exerts no shear."""
+    """Exact solution of the discrete momentum balance at the cell centres. Ghosts mirror the
+    plates; a plate whose velocity is None exerts no shear."""
     h = H / N
     matrix = np.diag(np.full(N, -2.0)) + np.diag(np.ones(N - 1), 1) + np.diag(np.ones(N - 1), -1)
     right = np.full(N, -force * h * h / ETA)

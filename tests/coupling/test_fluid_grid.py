@@ -1,5 +1,5 @@
-"""The fluid's grid among what LAMMPS does to its box and its MPI tasks: subdomains without a row of cells, too little
-memory, a box, a boundary or a skin that the grid does not go with."""
+"""The fluid's grid among what LAMMPS does to its box and its MPI tasks: subdomains without a row of
+cells, too little memory, a box, a boundary or a skin that the grid does not go with."""
 
 import os
 import unittest
@@ -45,7 +45,8 @@ PLATES["fluid"] = BEADS["fluid"] + " wall zlo 0 0 0 wall zhi 0.1 0 0"
 
 
 class ThinSubdomains(unittest.TestCase):
-    """What MPI tasks compute does not depend on how many there are, some without a centre of a cell."""
+    """What MPI tasks compute does not depend on how many there are, some without a centre of a
+    cell."""
 
     def agree(self, ranks, changes, **by_ranks):
         one, many = in_parallel(run, [(scene(BEADS, **changes), 1),

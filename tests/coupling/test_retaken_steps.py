@@ -1,5 +1,5 @@
-"""Steps that go wrong are taken again, a bounded number of times, and are counted; a run that stops names what may
-help."""
+"""Steps that go wrong are taken again, a bounded number of times, and are counted; a run that stops
+names what may help."""
 
 import re
 import unittest
@@ -18,7 +18,8 @@ OUTPUT = "fix out all rbc/vtk 1 cells.*.vtp"
 
 
 def lifted(stiffness, dt, time=8000, ib=" integrator rkc auto", **changes):
-    """A stiff wall that comes from below lifts a cell: modes become fast from one step to the next. Its range is 1."""
+    """A stiff wall that comes from below lifts a cell: modes become fast from one step to the next.
+    Its range is 1."""
     return dict(membrane=MEMBRANE, timestep=f"timestep {dt}", ib=IB + ib,
                 before="variable place equal 2.4+time*1e-4\n"
                        f"fix wall all wall/harmonic zlo v_place {stiffness} 1.0 1.0",

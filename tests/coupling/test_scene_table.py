@@ -1,5 +1,5 @@
-"""The table of a scene at the start of a run: its numbers against those of the template and the flow, and which of them
-are warned of."""
+"""The table of a scene at the start of a run: its numbers against those of the template and the
+flow, and which of them are warned of."""
 
 import re
 import unittest

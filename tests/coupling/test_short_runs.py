@@ -1,4 +1,5 @@
-"""What goes from run to run: the memory of the flow rate and of estimates, but not past what has changed in between."""
+"""What goes from run to run: the memory of the flow rate and of estimates, but not past what has
+changed in between."""
 
 import unittest
 
@@ -88,7 +89,8 @@ class FluidAlone(unittest.TestCase):
 
 
 class TimestepAfterRestart(unittest.TestCase):
-    """With adapt a timestep command after read_restart says nothing: the file holds the next timestep."""
+    """With adapt a timestep command after read_restart says nothing: the file holds the next
+    timestep."""
 
     def test_changes_nothing(self):
         for adapt in ("ab2 adapt 1e-4 200", "rkc auto adapt 1e-4 200", "midpoint adapt 1e-4 200"):

@@ -1,5 +1,5 @@
-"""fix rbc/wall through LAMMPS: planes and spheres of atoms against closed forms, a tube with cells, moving walls, tasks,
-errors."""
+"""fix rbc/wall through LAMMPS: planes and spheres of atoms against closed forms, a tube with cells,
+moving walls, tasks, errors."""
 
 import re
 import unittest

@@ -1,4 +1,5 @@
-"""Runs that are killed, and files that cannot be written: no hang, and no broken file is taken for a whole one.
+"""Runs that are killed, and files that cannot be written: no hang, and no broken file is taken for
+a whole one.
 
 A file under way is a pipe that is read no further: what writes it waits in the middle.
 """
@@ -79,7 +80,8 @@ class Pipe:
 
 class Killed(unittest.TestCase):
     def broken_off(self, ranks, number, targets):
-        """Ends tasks of a run while it writes BAD; returns its folder, where BAD is what there was of it."""
+        """Ends tasks of a run while it writes BAD; returns its folder, where BAD is what there was
+        of it."""
         pipes = []
 
         def prepare(folder):

@@ -1,4 +1,5 @@
-"""Changes to decks: to words and lines of scripts, templates and materials, and to bytes of STL files."""
+"""Changes to decks: to words and lines of scripts, templates and materials, and to bytes of STL
+files."""
 
 import re
 

@@ -1,4 +1,5 @@
-"""A minute of mutated decks, the same each time: none ends as no run may. decks.py runs more of them."""
+"""A minute of mutated decks, the same each time: none ends as no run may. decks.py runs more of
+them."""
 
 import unittest
 from pathlib import Path

@@ -1,4 +1,5 @@
-"""The libFuzzer targets of readers without LAMMPS, for some seconds; scripts/fuzz.sh runs all of them for longer."""
+"""The libFuzzer targets of readers without LAMMPS, for some seconds; scripts/fuzz.sh runs all of
+them for longer."""
 
 import shutil
 import subprocess

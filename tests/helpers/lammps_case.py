@@ -1,7 +1,7 @@
 """Runs an input script through lmp_rbc (or stock lmp with the plugin) and reads what it wrote.
 
-The executables come from the environment, as ctest sets them: LMP_RBC, RBC_PLUGIN, LMP, MPIEXEC. Every run has a
-folder of its own, case<n>, in the current folder.
+The executables come from the environment, as ctest sets them: LMP_RBC, RBC_PLUGIN, LMP, MPIEXEC.
+Every run has a folder of its own, case<n>, in the current folder.
 """
 
 import itertools
@@ -53,7 +53,8 @@ SHEAR = {
 
 
 def scene(base=SHEAR, **changes):
-    """The script of `base` with some lines changed, dropped (None) or filled in, by the names of the lines."""
+    """The script of `base` with some lines changed, dropped (None) or filled in, by the names of
+    the lines."""
     unknown = changes.keys() - base.keys()
     if unknown:
         raise KeyError(f"no such line: {unknown}")
@@ -168,8 +169,8 @@ _numbers = itertools.count(1)
 class Job:
     """A run that has been started; its end is that of the block it is used in.
 
-    files: name -> text, written beside the script first. prepare(folder) is called before the start, before() in the
-    process that is started.
+    files: name -> text, written beside the script first. prepare(folder) is called before the
+    start, before() in the process that is started.
     """
 
     def __init__(self, script, ranks=1, plugin=False, files=None, prepare=None, before=None):

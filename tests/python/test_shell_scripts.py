@@ -1,4 +1,5 @@
-"""Scripts that build say what a machine lacks, as sudo, home, network or Debian, and leave nothing."""
+"""Scripts that build say what a machine lacks, as sudo, home, network or Debian, and leave
+nothing."""
 import shutil
 import subprocess
 import tempfile

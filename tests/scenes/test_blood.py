@@ -1,4 +1,5 @@
-"""Dense blood between plates and in a tube, short runs; the include file that they share, in a scene that lacks it."""
+"""Dense blood between plates and in a tube, short runs; the include file that they share, in a
+scene that lacks it."""
 
 import re
 import unittest

@@ -37,7 +37,8 @@ def rotation(degrees, axis):
 
 
 def order(axes):
-    """Largest eigenvalue of the mean of (3 n n - 1) / 2: 0 for isotropic directions, 1 for one direction."""
+    """Largest eigenvalue of the mean of (3 n n - 1) / 2: 0 for isotropic directions, 1 for one
+    direction."""
     return abs(np.linalg.eigvalsh(1.5 * axes.T @ axes / len(axes) - 0.5 * np.eye(3))).max()
 
 

@@ -1,4 +1,5 @@
-"""Vessels: region rbc/mesh, rbc/surface, cells packed and held inside a region, flow rates inside one."""
+"""Vessels: region rbc/mesh, rbc/surface, cells packed and held inside a region, flow rates inside
+one."""
 
 import subprocess
 import sys
@@ -55,7 +56,8 @@ def nearest(points, others):
 
 
 def write_capped_tube(path, ends):
-    """A tube of radius 9 from x = 0 to 24 about y = z = 0, with flat lids at these ends, as CAD programs export it."""
+    """A tube of radius 9 from x = 0 to 24 about y = z = 0, with flat lids at these ends, as CAD
+    programs export it."""
     sides, rings = 32, np.linspace(0, 24, 13)
 
     def at(x, j):
@@ -263,7 +265,8 @@ def slit(*words, **changes):
 
 class Drive(Case):
     def test_mean_velocity_is_held(self):
-        """Plane Poiseuille flow: the gradient of the discrete equations is 12 eta V / H^2 / (1 + 2 dz^2 / H^2)."""
+        """Plane Poiseuille flow: the gradient of the discrete equations is 12 eta V / H^2 / (1 + 2
+        dz^2 / H^2)."""
         expected = 12 * 1.5 * 0.01 / 12**2 / (1 + 2 / 12**2)
         for words in ("mean x 0.01", "mean x 0.01 inside tube", "mean x v_V inside tube"):
             thermo = slit(words, 2, every="thermo 1\nvariable V equal 0.01")
@@ -290,7 +293,8 @@ class Drive(Case):
             self.assertGreater(with_cell, 1.01 * without)
 
     def test_of_the_whole_periodic_box(self):
-        """Held by the mean velocity of the box; a force on a bead is what the gradient has to balance."""
+        """Held by the mean velocity of the box; a force on a bead is what the gradient has to
+        balance."""
         lines = dict(boundary="boundary p p p", cells="create_atoms 1 single 9 10 6\nfix pull all addforce 0.02 0 0",
                      ib="fix ib all rbc/ib flow integrator midpoint", timestep="timestep 10")
         result = run_slit("mean x 0.01 inside tube", walls="", **lines)
