@@ -44,7 +44,7 @@ variable        minus equal -v_U
 fix             membrane all rbc/membrane rbc mooney-rivlin ${{C1}} ${{C2}} ${{h}} bending ${{kappa}} &
                 area 0 {area} volume yes
 fix             flow all rbc/fluid dx 0.5 viscosity ${{viscosity}} density ${{density}} wall zlo ${{minus}} 0 0 wall zhi ${{U}} 0 0
-fix             ib all rbc/ib flow integrator {integrator} courant 4 sheets no
+fix             ib all rbc/ib flow kernel peskin4 integrator {integrator} courant 4 sheets no
 compute         cell all rbc/cell
 thermo_style    custom step time f_membrane
 thermo          {steps}

@@ -7,6 +7,9 @@ namespace fluid {
 
 enum class KernelKind { roma3, peskin4 };
 
+/// The narrower kernel is nearer to lubrication in the gaps of dense blood, see theory.rst.
+inline constexpr KernelKind default_kernel = KernelKind::roma3;
+
 /// Sheets are surfaces with fluid on both sides. Their velocity is corrected for the kink of the
 /// flow that kernels round off, see kink_correction().
 enum class MarkerKind { points, sheets };
@@ -14,7 +17,7 @@ enum class MarkerKind { points, sheets };
 /// Points of the immersed boundary: `index[0 .. count)` select rows of the arrays of positions,
 /// forces and velocities, which hold three numbers a row.
 struct MarkerSet {
-  KernelKind kernel = KernelKind::peskin4;
+  KernelKind kernel = default_kernel;
   MarkerKind kind = MarkerKind::points;
   int count = 0;
   const int *index = nullptr;

@@ -124,7 +124,7 @@ class InPlasma(unittest.TestCase):
             cells="rbc/create rbc single 7 6 7.3 rotate 4 1 0.5 0\nrbc/create rbc single 7.4 6 4.5",
             membrane="fix mem all rbc/membrane rbc mooney-rivlin 0.257 0.0257 0.01 bending 2.0e-4 volume yes",
             fluid="fix flow all rbc/fluid dx 1.0 viscosity 1.5 density 1.025 inertia none" + walls,
-            ib=f"fix ib all rbc/ib flow integrator {integrator}", every="thermo 10",
+            ib=f"fix ib all rbc/ib flow kernel peskin4 integrator {integrator}", every="thermo 10",
             thermo="thermo_style custom step c_pe c_contact[1]" + thermo, dump=dump_line(self.STEPS), timestep="timestep 200",
             run=f"run {self.STEPS}", **changes), ranks)
 

@@ -11,7 +11,7 @@ from lammps_case import POTENTIALS, SHEAR, attempt, dump_line, make_template, re
 from test_extremes import AUTO, BOX, area, cut_edges, fluid, membrane, rms, volume
 
 SHAPE, TRIANGLES = read_template(POTENTIALS / "rbc_162.mol")
-IB = "fix ib all rbc/ib flow integrator "
+IB = "fix ib all rbc/ib flow kernel peskin4 integrator "
 FAR = dict(box="region box block 0 36 0 36 0 24", cells="rbc/create rbc single 12 12 12", fluid=fluid(0.0, height=24))
 
 

@@ -8,7 +8,7 @@ from lammps_case import POTENTIALS, SHEAR, dump_line, in_parallel, make_template
 
 BOX, RATE, DT = 12.0, 1e-4, 200.0    # 100/s; a healthy cell is stable up to some 2000 us
 DIAMETER = 7.82
-AUTO = "fix ib all rbc/ib flow integrator rkc auto"
+AUTO = "fix ib all rbc/ib flow kernel peskin4 integrator rkc auto"
 
 
 def membrane(factor=1.0, more="volume yes", law="mooney-rivlin"):

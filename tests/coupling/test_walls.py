@@ -62,7 +62,7 @@ BASE = dict(units="units micro", newton="", style="atom_style molecular", bounda
             data="read_data walls.data", mass="mass * 1.0", neighbor="neighbor 1.0 bin", comm="comm_modify cutoff 12",
             pair="pair_style zero 2.0\npair_coeff * *", groups="group w type 2", before="",
             fluid=f"fix flow all rbc/fluid dx 1.0 viscosity {VISCOSITY} density 1.0", drive="",
-            wall="fix w w rbc/wall flow", ib="",
+            wall="fix w w rbc/wall flow kernel peskin4", ib="",
             thermo="thermo_style custom step " + " ".join(COLUMNS), thermo_modify="thermo_modify format float %.15g",
             every="thermo 1", timestep="timestep 100", dump="", run="run 0")
 
@@ -120,7 +120,7 @@ class Planes(unittest.TestCase):
         # and it carries that outside with it: no force is left in a periodic box
         box, apart = (16, 16, 32), 16
         result = walls(box, plane(box, 8.2), plane(box, 8.2 + apart), groups="group w type 2\ngroup v type 3",
-                       wall="tol 1e-8 velocity 1e-3 0 0\nfix v v rbc/wall flow tol 1e-8 velocity -1e-3 0 0",
+                       wall="tol 1e-8 velocity 1e-3 0 0\nfix v v rbc/wall flow kernel peskin4 tol 1e-8 velocity -1e-3 0 0",
                        thermo=BASE["thermo"] + " f_v[1] f_v[8]")
         last = result.thermo
         d = offset(8.2 - 0.5)
@@ -330,7 +330,7 @@ class Errors(unittest.TestCase):
 
     def test_groups(self):
         self.check("Fix rbc/wall w: its group has no atoms", groups="group w type 1")
-        self.check("Fix rbc/wall v and Fix rbc/wall w have atoms in common", wall="\nfix v all rbc/wall flow")
+        self.check("Fix rbc/wall v and Fix rbc/wall w have atoms in common", wall="\nfix v all rbc/wall flow kernel peskin4")
         self.check("Fix rbc/wall v: kernel, tol and maxiter must be those of Fix rbc/wall w",
                    surfaces=[plane(self.BOX, 2.0), plane(self.BOX, 6.0)], groups="group w type 2\ngroup v type 3",
                    wall="\nfix v v rbc/wall flow tol 1e-4")

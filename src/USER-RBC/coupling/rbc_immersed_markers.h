@@ -23,7 +23,7 @@ class MassiveMarkers;
 class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers {
  public:
   struct Settings {
-    fluid::KernelKind kernel = fluid::KernelKind::peskin4;
+    fluid::KernelKind kernel = fluid::default_kernel;
     double courant = 1;    ///< fluid cells that a marker may cross in a step
   };
 

@@ -17,7 +17,7 @@ class WallGroup : protected Pointers {
  public:
   struct Settings {
     std::array<NumberOrVariable, 3> velocity;
-    fluid::KernelKind kernel = fluid::KernelKind::peskin4;
+    fluid::KernelKind kernel = fluid::default_kernel;
     double tolerance = 1.0e-3;    ///< largest slip, see fluid::RigidSurface
     int max_solves = 100;         ///< of an evaluation
   };
