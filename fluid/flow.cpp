@@ -44,43 +44,11 @@ int Flow::spread(const MarkerSet &markers, const double *force, double factor)
   return fluid::spread(grid_, markers, force, factor, total_.force, reach(markers.kind));
 }
 
-/// The box inside which kernels must stay. For sheets it is smaller by the layer in which second
-/// differences are missing, except beyond plates, where the mirror image gives the velocity.
+/// The box inside which kernels must stay.
 Box Flow::reach(MarkerKind kind) const
 {
-  Box box = halo_.box();
-  if (kind == MarkerKind::points || box.empty()) return box;
-  for (int d = 0; d < 3; ++d) {
-    const bool plates = d == 2 && grid_.plates;
-    if (!plates || box.lo[d] >= 0) ++box.lo[d];
-    if (!plates || box.hi[d] <= grid_.cells[d]) --box.hi[d];
-  }
-  return box;
-}
-
-/// u - kink_correction h_d^2 d2u/dx_d2, summed over the directions d.
-const VectorField &Flow::kink_corrected(KernelKind kernel, const VectorField &velocity,
-                                        const PlateVelocities &plates)
-{
-  if (!sharp_.bytes()) sharp_ = VectorField(halo_.box());
-  const double share = kink_correction(kernel);
-  Box box = reach(MarkerKind::sheets);
-  if (grid_.plates && !box.empty()) {
-    box.lo[2] = std::max(box.lo[2], 0);
-    box.hi[2] = std::min(box.hi[2], grid_.cells[2]);
-  }
-  const std::ptrdiff_t row = velocity.box().extent(0), plane = row * velocity.box().extent(1);
-  const int first = box.lo[0], n = box.extent(0);
-  for (int c = 0; c < 3; ++c)
-    for_each_row(box, [&, from = velocity[c], to = sharp_[c]](int j, int k) {
-      const double *const u = &from(first, j, k);
-      double *const result = &to(first, j, k);
-      for (int i = 0; i < n; ++i)
-        result[i] = (1 + 6 * share) * u[i] - share * (u[i - 1] + u[i + 1] + u[i - row] +
-                                                      u[i + row] + u[i - plane] + u[i + plane]);
-    });
-  if (grid_.plates) reflect_velocity(grid_, plates, sharp_);
-  return sharp_;
+  const int layers = kind == MarkerKind::sheets ? SheetVelocity::layers : 0;
+  return without_layers(halo_.box(), grid_, layers);
 }
 
 void Flow::accumulate_ghosts()
@@ -225,7 +193,7 @@ const VectorField &Flow::seen_by(const MarkerSet &markers, const VectorField &ve
                                  const PlateVelocities &plates)
 {
   if (markers.kind == MarkerKind::points) return velocity;
-  return kink_corrected(markers.kernel, velocity, plates);
+  return sheets_.of(velocity, markers.kernel, grid_, plates);
 }
 
 void Flow::interpolate(const MarkerSet &markers, double *velocity)
@@ -294,9 +262,9 @@ Traffic Flow::traffic() const
 
 std::size_t Flow::bytes() const
 {
-  std::size_t sum = pressure_.bytes() + halo_.bytes() + solver_.bytes();
-  for (const VectorField *field : {&total_.force, &total_.velocity, &previous_, &rhs_,
-                                   &mobility_.force, &mobility_.velocity, &sharp_})
+  std::size_t sum = pressure_.bytes() + halo_.bytes() + solver_.bytes() + sheets_.bytes();
+  for (const VectorField *field :
+       {&total_.force, &total_.velocity, &previous_, &rhs_, &mobility_.force, &mobility_.velocity})
     sum += field->bytes();
   return sum;
 }

@@ -3,6 +3,7 @@
 #include "fluid/advection.h"
 #include "fluid/flow_equations.h"
 #include "fluid/plates.h"
+#include "fluid/sheet_velocity.h"
 #include "fluid/spreading.h"
 #include "fluid/stokes_solver.h"
 
@@ -26,8 +27,7 @@ class Flow {
 
   /// Adds `factor` times the forces of the markers (three numbers a row) to the force density.
   /// Stops at the first marker whose kernel leaves the ghost layers and returns its row, or -1. For
-  /// sheets the kernels must stay one layer further inside, where second differences of the
-  /// velocity exist. Not collective.
+  /// sheets the kernels must stay SheetVelocity::layers further inside. Not collective.
   int spread(const MarkerSet &markers, const double *force, double factor);
 
   /// Adds the ghosts' share of the force to its owners: the exchange between spread and solve.
@@ -134,8 +134,6 @@ class Flow {
   Box reach(MarkerKind kind) const;
   const VectorField &seen_by(const MarkerSet &markers, const VectorField &velocity,
                              const PlateVelocities &plates);
-  const VectorField &kink_corrected(KernelKind kernel, const VectorField &velocity,
-                                    const PlateVelocities &plates);
 
   Grid grid_;
   Decomposition decomposition_;
@@ -159,7 +157,7 @@ class Flow {
 
   ScalarField pressure_;
   ForcedVelocity mobility_;    ///< of the last apply_mobility
-  VectorField sharp_;          ///< velocity of sheets
+  SheetVelocity sheets_;
   StokesSolver solver_;
 };
 

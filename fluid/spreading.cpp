@@ -126,9 +126,14 @@ double surface_offset(KernelKind kernel)
   return kernel == KernelKind::peskin4 ? Peskin4::surface_offset : Roma3::surface_offset;
 }
 
-double kink_correction(KernelKind kernel)
+template <class Kernel> static constexpr SheetCorrection correction_of()
 {
-  return kernel == KernelKind::peskin4 ? Peskin4::kink_correction : Roma3::kink_correction;
+  return {Kernel::second_correction, Kernel::fourth_correction};
+}
+
+SheetCorrection sheet_correction(KernelKind kernel)
+{
+  return kernel == KernelKind::peskin4 ? correction_of<Peskin4>() : correction_of<Roma3>();
 }
 
 int spread(const Grid &grid, const MarkerSet &markers, const double *applied, double factor,

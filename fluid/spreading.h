@@ -10,8 +10,8 @@ enum class KernelKind { roma3, peskin4 };
 /// The narrower kernel is nearer to lubrication in the gaps of dense blood, see theory.rst.
 inline constexpr KernelKind default_kernel = KernelKind::roma3;
 
-/// Sheets are surfaces with fluid on both sides. Their velocity is corrected for the kink of the
-/// flow that kernels round off, see kink_correction().
+/// Sheets are surfaces with fluid on both sides. Their velocity is corrected for what kernels blur,
+/// see sheet_correction().
 enum class MarkerKind { points, sheets };
 
 /// Points of the immersed boundary: `index[0 .. count)` select rows of the arrays of positions,
@@ -48,12 +48,20 @@ void interpolate(const Grid &grid, const MarkerSet &markers, const VectorField &
 /// other side is sheared by g times as much it is 1 + g times as far.
 double surface_offset(KernelKind kernel);
 
-/// Square of a length, in cells, such that u - kink_correction d2u/dn2 is the velocity of a sheet
-/// of markers in the flow u that their forces cause. That flow has a kink at the sheet, normal n,
-/// of the tangential traction over the viscosity, which spreading rounds off: interpolated alone, u
-/// lags behind by surface_offset times it, and the sheet acts that much thicker on both sides. A
-/// local correction as those of regularised kernels in boundary integrals: Beale & Lai, SIAM J.
-/// Numer. Anal. 38 (2001) 1902; Tlupova & Beale, J. Comput. Phys. 386 (2019) 568.
-double kink_correction(KernelKind kernel);
+/// Factors C_2 and C_4, of squares and fourth powers of a cell, such that u - C_2 D u + C_4 D D u
+/// is the velocity of a sheet of markers in the flow u that their forces cause; D is the sum of the
+/// second differences.
+///
+/// Kernels blur the flow twice. C_2 undoes this where the flow is smooth: it is the variance of the
+/// kernel's weights less what the differences of the grid are off by. At a sheet with a tangential
+/// traction the flow has a kink, which is rounded off: interpolated alone, u lags behind by
+/// surface_offset times the traction over the viscosity, and the sheet acts that much thicker on
+/// both sides. With C_4 this vanishes, and what is left of the error is of third order. A local
+/// correction as those of regularised kernels in boundary integrals: Beale & Lai, SIAM J. Numer.
+/// Anal. 38 (2001) 1902; Tlupova & Beale, J. Comput. Phys. 386 (2019) 568. See theory.rst.
+struct SheetCorrection {
+  double second, fourth;
+};
+SheetCorrection sheet_correction(KernelKind kernel);
 
 }    // namespace fluid

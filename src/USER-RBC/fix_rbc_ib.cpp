@@ -32,6 +32,7 @@ FixRBCIB::FixRBCIB(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), cos
   size_vector = 10;
   global_freq = 1;
   extvector = 0;
+  comm_forward = comm_reverse = 3;
 
   if (narg < 4) utils::missing_cmd_args(FLERR, "fix rbc/ib", error);
   fluid = arg[3];
@@ -84,6 +85,7 @@ void FixRBCIB::build(const MotionSettings &settings)
   const std::string style = fmt::format("Fix rbc/ib {}", id);
   markers = std::make_unique<ImmersedMarkers>(lmp, style, groupbit, settings.markers);
   markers->viscosity().set_limits(settings.tolerance, settings.max_solves);
+  if (settings.gaps) gaps = std::make_unique<GapSlip>(lmp, this, settings.markers.kernel);
   steps =
       std::make_unique<TimeSteps>(lmp, style, *markers, settings.integrator->make(settings.options),
                                   settings.error_bound, settings.largest_dt);
@@ -176,7 +178,53 @@ void FixRBCIB::init()
 
   markers->start_run(flow, membranes,
                      has_sheets() ? fluid::MarkerKind::sheets : fluid::MarkerKind::points);
+  start_gaps(membranes);
   steps->start_run(flow, late_forces);
+}
+
+/* ----------------------------------------------------------------------
+   points have no surfaces that could slide
+------------------------------------------------------------------------- */
+
+void FixRBCIB::start_gaps(const std::vector<CellMembranes *> &membranes)
+{
+  if (gaps && has_sheets()) gaps->start_run(*flow, membranes, find_cell_contact(force));
+  markers->set_gap_slip(slides_in_gaps() ? gaps.get() : nullptr);
+}
+
+bool FixRBCIB::slides_in_gaps() const
+{
+  return gaps && has_sheets() && gaps->acts();
+}
+
+double FixRBCIB::widest_gap() const
+{
+  const auto fluid_fix = dynamic_cast<FixRBCFluid *>(modify->get_fix_by_id(fluid));
+  return gaps && fluid_fix && has_sheets() ? gaps->widest_gap(fluid_fix->driven_flow()) : 0;
+}
+
+/* ----------------------------------------------------------------------
+   numbers of ghosts, for the sliding of surfaces
+------------------------------------------------------------------------- */
+
+int FixRBCIB::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/, int * /*pbc*/)
+{
+  return gaps->pack_tractions(n, list, buf);
+}
+
+void FixRBCIB::unpack_forward_comm(int n, int first, double *buf)
+{
+  gaps->unpack_tractions(n, first, buf);
+}
+
+int FixRBCIB::pack_reverse_comm(int n, int first, double *buf)
+{
+  return gaps->pack_slip(n, first, buf);
+}
+
+void FixRBCIB::unpack_reverse_comm(int n, int *list, double *buf)
+{
+  gaps->unpack_slip(n, list, buf);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -290,6 +338,7 @@ void FixRBCIB::post_neighbor()
 {
   markers->find_members();
   if (!masses) steps->atoms_migrated();
+  if (slides_in_gaps()) gaps->find_areas();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -310,6 +359,7 @@ void FixRBCIB::setup(int /*vflag*/)
   for (StepPart *pair : pair_step_parts(force)) parts.push_back(pair);
   parts.push_back(flow);
   parts.push_back(markers.get());
+  if (slides_in_gaps()) parts.push_back(gaps.get());
   if (flow->walls()) parts.push_back(flow->walls());
   cost.start(parts);
   flow->count_from_here();
@@ -445,5 +495,6 @@ std::string FixRBCIB::remedies_for(const std::vector<Flaw> &seen)
 
 double FixRBCIB::memory_usage()
 {
-  return static_cast<double>(markers->bytes() + steps->bytes() + (masses ? masses->bytes() : 0));
+  return static_cast<double>(markers->bytes() + steps->bytes() + (masses ? masses->bytes() : 0) +
+                             (gaps ? gaps->bytes() : 0));
 }

@@ -7,7 +7,9 @@ FixStyle(rbc/ib,FixRBCIB);
 #ifndef LMP_FIX_RBC_IB_H
 #define LMP_FIX_RBC_IB_H
 
+#include "cells/rbc_cell_contact.h"
 #include "coupling/rbc_fluid_client.h"
+#include "coupling/rbc_gap_slip.h"
 #include "coupling/rbc_massive_markers.h"
 #include "coupling/rbc_motion_settings.h"
 #include "coupling/rbc_step_cost.h"
@@ -21,7 +23,7 @@ FixStyle(rbc/ib,FixRBCIB);
 namespace LAMMPS_NS {
 
 /// Moves atoms with a fluid that their forces drive: arguments, checks, output and LAMMPS's hooks.
-class FixRBCIB : public Fix, public FluidClient, public RunEnd {
+class FixRBCIB : public Fix, public FluidClient, public RunEnd, public ContactReader {
  public:
   FixRBCIB(class LAMMPS *, int, char **);
   ~FixRBCIB() override;
@@ -39,11 +41,16 @@ class FixRBCIB : public Fix, public FluidClient, public RunEnd {
   void write_restart(FILE *) override;
   void restart(char *) override;
   void set_arrays(int) override;
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+  int pack_reverse_comm(int, int, double *) override;
+  void unpack_reverse_comm(int, int *, double *) override;
 
   const std::string &fluid_id() const override { return fluid; }
   bool drives_flow() const override { return true; }
   double cells_per_step() const override { return courant; }
   bool has_sheets() const override;
+  double widest_gap() const override;
 
   std::string remedies_for(const std::vector<Flaw> &) override;
 
@@ -61,6 +68,7 @@ class FixRBCIB : public Fix, public FluidClient, public RunEnd {
   std::unique_ptr<ImmersedMarkers> markers;
   std::unique_ptr<MassiveMarkers> masses;    // of scheme direct, else null
   std::unique_ptr<TimeSteps> steps;
+  std::unique_ptr<GapSlip> gaps;    // null with gaps no
   StepCost cost;
 
   std::string store_id;
@@ -68,6 +76,8 @@ class FixRBCIB : public Fix, public FluidClient, public RunEnd {
 
   bool fluid_has_inertia() const;
   void update_default();
+  void start_gaps(const std::vector<CellMembranes *> &);
+  bool slides_in_gaps() const;
   void build(const MotionSettings &);
   int stored() const;
   void check_run() const;

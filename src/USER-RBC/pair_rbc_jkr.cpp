@@ -7,6 +7,7 @@
 #include "error.h"
 #include "force.h"
 #include "memory.h"
+#include "modify.h"
 #include "neighbor.h"
 #include "support/rbc_arguments.h"
 
@@ -104,6 +105,7 @@ void PairRBCJKR::init_style()
                       "where contact is lost");
   surfaces->see_own_cells(own_cells ? OWN_PATCH * cutoff : 0);
   surfaces->init();
+  widest_gap = widest_gap_wanted(modify);
   check_cells();
   // pair_style hybrid may have taken pairs away
   std::fill(type_pairs.begin(), type_pairs.end(), TypePair());
@@ -178,6 +180,11 @@ double PairRBCJKR::slack() const
   return 2 * neighbor->skin;
 }
 
+double PairRBCJKR::reach() const
+{
+  return std::max(range, widest_gap);
+}
+
 /* ----------------------------------------------------------------------
    LAMMPS adds the skin to the cutoff between atoms that is returned. Ghosts then reach all corners
    of the triangles in reach of an owned vertex.
@@ -190,7 +197,7 @@ double PairRBCJKR::init_one(int i, int j)
   const int n = atom->ntypes + 1;
   const TypePair pair = make_type_pair(i, j);
   type_pairs[std::size_t(i) * n + j] = type_pairs[std::size_t(j) * n + i] = pair;
-  if (!pair.law) return 0;
+  if (!pair.law) return widest_gap > 0 ? ghost_reach() : 0;
   if (pair.range() > cutoff)
     error->all(FLERR,
                "Pair rbc/jkr cutoff {} must be at least {:.6g}, where surfaces of types {} {} lose "
@@ -204,7 +211,19 @@ double PairRBCJKR::init_one(int i, int j)
     range = pair.range();
     neighbor_calls = -1;    // fix adapt may have raised it
   }
-  return cutoff + surfaces->longest_edge() + slack() - neighbor->skin;
+  return ghost_reach();
+}
+
+double PairRBCJKR::ghost_reach() const
+{
+  return std::max(cutoff, widest_gap) + surfaces->longest_edge() + slack() - neighbor->skin;
+}
+
+/* ---------------------------------------------------------------------- */
+
+const std::vector<rbc::VertexContact> &PairRBCJKR::near_contacts() const
+{
+  return surfaces->last_contacts();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -247,9 +266,10 @@ bool PairRBCJKR::neighbors_changed()
 void PairRBCJKR::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
+  if (reach() == 0) return;    // no types touch
   finding.start();
-  if (neighbors_changed()) surfaces->build(range, slack());
-  const auto &contacts = surfaces->contacts(range);
+  if (neighbors_changed()) surfaces->build(reach(), slack());
+  const auto &contacts = surfaces->contacts(reach());
   finding.stop();
 
   interacting.start();

@@ -41,6 +41,7 @@ class PairRBCJKR : public Pair, public StepPart, public CellContact {
   double memory_usage() override;
 
   double contact_range(int, int) const override;
+  const std::vector<rbc::VertexContact> &near_contacts() const override;
 
   void report_to(const std::shared_ptr<CollectiveStop> &) override;
   std::vector<Section> sections() override
@@ -66,7 +67,8 @@ class PairRBCJKR : public Pair, public StepPart, public CellContact {
   std::unique_ptr<class ContactCoefficients> coefficients;
   std::unique_ptr<class NearSurfaces> surfaces;
   std::vector<TypePair> type_pairs;
-  double range = 0;    // largest of them
+  double range = 0;         // largest of them
+  double widest_gap = 0;    // up to which fixes want to know of surfaces
   bigint neighbor_calls = -1, neighbor_step = -1;
 
   double adhered_area = 0;
@@ -78,6 +80,8 @@ class PairRBCJKR : public Pair, public StepPart, public CellContact {
   const TypePair &types(int itype, int jtype) const;
   double read_number(FILE *);
   double slack() const;
+  double reach() const;
+  double ghost_reach() const;
   void check_cells();
   bool neighbors_changed();
   void add_forces(const std::vector<rbc::VertexContact> &);

@@ -131,7 +131,7 @@ class InPlasma(unittest.TestCase):
     def test_ranks_and_newton(self):
         for integrator in ("midpoint", "rkc 4"):
             alone = self.carried(integrator=integrator)
-            self.assertGreater(np.ptp(alone.thermo["c_contact[1]"]), 3)
+            self.assertGreater(np.ptp(alone.thermo["c_contact[1]"]), 2)    # um^2: cells come and go
             x = alone.dump().positions()
             for ranks, newton in ((1, "newton off"), (2, "newton on"), (4, "newton off"), (4, "newton on")):
                 with self.subTest(integrator, ranks=ranks, newton=newton):

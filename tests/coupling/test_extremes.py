@@ -120,12 +120,12 @@ class Limits(unittest.TestCase):
         print(f"\nmoduli times {factors}: {away} diameters from simple shear")
         self.assertLess(away[-1], 1e-4)
         beyond = [10 - stiffer / softer for stiffer, softer in zip(away, away[1:])]    # of second order in the moduli
-        self.assertLess(abs(beyond[0]), 30 * factors[0])
+        self.assertLess(abs(beyond[0]), 40 * factors[0])
         self.assertAlmostEqual(beyond[0] / beyond[1], 10, delta=1)
 
     def test_stiff_cells_move_as_with_short_explicit_steps(self):
         # long steps do not resolve how the stress builds up at the start; what they miss decays over some tens of steps
-        for factor, dt, short in ((1e2, 100.0, 10.0), (1e4, 20.0, 0.1)):
+        for factor, dt, short in ((1e2, 100.0, 5.0), (1e4, 20.0, 0.05)):
             (start, end, _), (_, explicit, _) = in_parallel(
                 lambda *case: shear(factor=factor, ib=case[0], dt=case[1], steps=case[2], every="thermo 1000"),
                 [(AUTO, dt, 60), (SHEAR["ib"], short, round(60 * dt / short))])

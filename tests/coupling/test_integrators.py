@@ -7,7 +7,7 @@ import numpy as np
 from lammps_case import SHEAR, Failed, dump_line, in_parallel, run, scene
 
 DIAMETER = 7.82
-IB = "fix ib all rbc/ib flow kernel peskin4 "    # smooth enough for orders in time to show
+IB = "fix ib all rbc/ib flow kernel peskin4 sheets no "    # smooth enough for orders in time to show
 COLUMNS = "id mol type xu yu zu vx vy vz fx fy fz"
 STIFF = SHEAR["membrane"].replace("0.257 0.0257", "25.7 2.57")
 VISCOUS = SHEAR["membrane"] + " viscosity 50"

@@ -49,7 +49,7 @@ class Numbers(unittest.TestCase):
         np.testing.assert_allclose(capillary, 1.5 * 0.0012 / 12 * radius / (2 * (0.257 + 0.0257) * 0.01), rtol=5e-3)
         # half a skin, a cell in a step, kernel, differences of sheets
         self.assertRegex(result.printed, r"scene: 10 x 10 x 10 fluid cells, spacing 1.2, neighbor skin 1 spacings, "
-                         rf"{int(np.ceil(0.5 + 1)) + 2 + 1} ghost layers")
+                         rf"{int(np.ceil(0.5 + 1)) + 2 + 2} ghost layers")
         self.assertIn("Plates: shear rate 0.0001; no fix wall repels cells from them", result.printed)
         self.assertEqual(warnings(result), [])
 

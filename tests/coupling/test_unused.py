@@ -25,10 +25,10 @@ class OneCell(unittest.TestCase):
         self.assertIn("Total # of neighbors = 0", alone.printed)
         self.assertEqual(sections(alone), USED)
         with_contact = run(scene(SHEAR, before="pair_style rbc/jkr 0.6\npair_coeff 1 1 repulsive 0.007 0.4", run="run 10"))
-        self.assertEqual(sections(with_contact), ["Membrane", "Detection", "Contact", *USED[1:]])
+        self.assertEqual(sections(with_contact), ["Membrane", "Detection", "Contact", *USED[1:-1], "Gaps", "Total"])
 
     def test_layers_for_sheets_only(self):
-        """Messages are the same; sheets exchange a layer of ghost cells more, points do not."""
+        """Messages are the same; sheets exchange two layers of ghost cells more, points do not."""
         points, sheets = (traffic(run(scene(SHEAR, ib=SHEAR["ib"] + f" sheets {word}", run="run 10"), ranks=2))
                           for word in ("no", "yes"))
         self.assertEqual(points[0], sheets[0])

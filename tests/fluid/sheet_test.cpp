@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-constexpr int width = 5;
+constexpr int width = 6;
 constexpr KernelKind kernels[] = {KernelKind::peskin4, KernelKind::roma3};
 
 /// Velocities of this rank's markers in a flow of unit viscosity that their forces drive.
@@ -66,47 +66,127 @@ TEST(Sheet, PlaneBetweenPlates)
   }
 }
 
+/// A sphere in the middle of a cubic box of four radii, off the symmetries of the grid.
+struct SphereInBox {
+  Grid grid;
+  Real3 centre;
+  double radius;
+  Points points;
+
+  explicit SphereInBox(double radius) :
+      grid{{n(radius), n(radius), n(radius)}, {0, 0, 0}, {1, 1, 1}, false},
+      centre{n(radius) / 2 + 0.1, n(radius) / 2 + 0.2, n(radius) / 2 + 0.3}, radius(radius),
+      points(sphere(centre, radius, 0.7))
+  {
+  }
+  static int n(double radius) { return static_cast<int>(4 * radius); }
+
+  double share() const { return 4 * pi * radius * radius / points.count(); }
+
+  /// Of a point from the centre, over the radius.
+  Real3 normal(int m) const
+  {
+    Real3 normal;
+    for (int d = 0; d < 3; ++d) normal[d] = (points.position[m][d] - centre[d]) / radius;
+    return normal;
+  }
+
+  std::vector<Real3> velocity(KernelKind kernel, MarkerKind kind) const
+  {
+    return velocities(grid, even(grid, {1, 1, ranks()}), kernel, points, kind);
+  }
+};
+
 /// Angular velocity, over the exact one, of a sphere of tractions that turn it, in a cubic array:
 /// that of a torque T is T (1 - c) / (8 pi viscosity a^3), c the volume fraction, to order
 /// c^(10/3).
 double turning(KernelKind kernel, double radius, MarkerKind kind)
 {
-  const int n = static_cast<int>(4 * radius);
-  const Grid grid{{n, n, n}, {0, 0, 0}, {1, 1, 1}, false};
-  const Real3 centre{n / 2 + 0.1, n / 2 + 0.2, n / 2 + 0.3};
-  Points points = sphere(centre, radius, 0.7);
-  const double share = 4 * pi * radius * radius / points.count();
-  for (const Real3 &x : points.position)
-    points.force.push_back(
-        {-3 * share * (x[1] - centre[1]) / radius, 3 * share * (x[0] - centre[0]) / radius, 0});
-  const Decomposition decomposition = even(grid, {1, 1, ranks()});
-  const auto velocity = velocities(grid, decomposition, kernel, points, kind);
-  assign(points, grid, decomposition);
+  SphereInBox ball(radius);
+  for (int m = 0; m < ball.points.count(); ++m) {
+    const Real3 n = ball.normal(m);
+    ball.points.force.push_back({-3 * ball.share() * n[1], 3 * ball.share() * n[0], 0});
+  }
+  const auto velocity = ball.velocity(kernel, kind);
+  assign(ball.points, ball.grid, even(ball.grid, {1, 1, ranks()}));
   double along = 0, moment = 0;
-  for (int m : points.index) {
-    const double x = points.position[m][0] - centre[0], y = points.position[m][1] - centre[1];
-    along += x * velocity[m][1] - y * velocity[m][0];
-    moment += x * x + y * y;
+  for (int m : ball.points.index) {
+    const Real3 n = ball.normal(m);
+    along += n[0] * velocity[m][1] - n[1] * velocity[m][0];
+    moment += n[0] * n[0] + n[1] * n[1];
   }
   reduce(MPI_SUM, along, moment);
   const double fraction = 4 * pi / 3 / 64;
-  return along / moment / (1 - fraction);
+  return along / moment / radius / (1 - fraction);
 }
 
+/// Points lag by three offsets over the radius. What is left for sheets is of third order.
 TEST(Sheet, TurningSphere)
 {
-  for (KernelKind kernel : kernels) {
-    const double lag = 3 * surface_offset(kernel);
-    double before = 0;
+  for (KernelKind kernel : kernels)
     for (double radius : {4.0, 8.0, 16.0}) {
       const double as_points = turning(kernel, radius, MarkerKind::points) - 1;
       const double as_sheet = turning(kernel, radius, MarkerKind::sheets) - 1;
-      EXPECT_NEAR(as_points * radius / lag, -1, 0.2);
-      EXPECT_LT(std::abs(as_sheet) * radius * radius, 0.3);
-      if (before != 0) {
-        EXPECT_LT(std::abs(as_sheet), 0.3 * std::abs(before));
-      }
-      before = as_sheet;
+      std::printf("turning sphere, kernel %d, radius %g: %.5f, points %.5f\n",
+                  static_cast<int>(kernel), radius, as_sheet, as_points);
+      EXPECT_NEAR(as_points * radius / (3 * surface_offset(kernel)), -1, 0.2);
+      EXPECT_LT(std::abs(as_sheet), 0.8 / std::pow(radius, 3) + 2e-4);
+    }
+}
+
+/// Velocities normal and tangential, over those of a straining flow, of a sphere of the tractions
+/// that hold it rigid in the opposite flow: 5 viscosity E n.
+struct Strain {
+  double normal, tangential;
+};
+
+Strain straining(KernelKind kernel, double radius)
+{
+  SphereInBox ball(radius);
+  const auto flow = [](const Real3 &n) { return Real3{n[0], n[1], -2 * n[2]}; };
+  for (int m = 0; m < ball.points.count(); ++m) {
+    const Real3 e = flow(ball.normal(m));
+    ball.points.force.push_back(
+        {5 * ball.share() * e[0], 5 * ball.share() * e[1], 5 * ball.share() * e[2]});
+  }
+  const auto velocity = ball.velocity(kernel, MarkerKind::sheets);
+  assign(ball.points, ball.grid, even(ball.grid, {1, 1, ranks()}));
+  double normal = 0, normal_flow = 0, all = 0, all_flow = 0;
+  for (int m : ball.points.index) {
+    const Real3 n = ball.normal(m), e = flow(n);
+    double un = 0, en = 0;
+    for (int d = 0; d < 3; ++d) {
+      un += velocity[m][d] * n[d];
+      en += e[d] * n[d];
+      all += velocity[m][d] * e[d];
+      all_flow += e[d] * e[d];
+    }
+    normal += un * en;
+    normal_flow += en * en;
+  }
+  reduce(MPI_SUM, normal, normal_flow, all, all_flow);
+  return {normal / normal_flow / radius, (all - normal) / (all_flow - normal_flow) / radius};
+}
+
+/// With differences of the second order alone normal velocities are 10 % too large and tangential
+/// ones 9 % too small at a radius of 4 cells. The limit, which images in the array change, is
+/// extrapolated.
+TEST(Sheet, StrainingSphere)
+{
+  for (KernelKind kernel : kernels) {
+    const Strain coarse = straining(kernel, 8), fine = straining(kernel, 16);
+    const double normal = fine.normal + (fine.normal - coarse.normal) / 7;
+    const double tangential = fine.tangential + (fine.tangential - coarse.tangential) / 7;
+    for (double radius : {4.0, 6.0, 8.0}) {
+      const Strain found = straining(kernel, radius);
+      std::printf("straining sphere, kernel %d, radius %g: normal %.4f, tangential %.4f\n",
+                  static_cast<int>(kernel), radius, found.normal / normal - 1,
+                  found.tangential / tangential - 1);
+      const double scale = kernel == KernelKind::roma3 ? 1 : 1.75;    // ratio of the variances
+      EXPECT_LT(std::abs(found.normal / normal - 1),
+                scale * (0.85 / std::pow(radius, 2) + 2 / std::pow(radius, 3)));
+      EXPECT_LT(std::abs(found.tangential / tangential - 1),
+                scale * 2.5 / std::pow(radius, 3) + 1e-3);
     }
   }
 }

@@ -122,6 +122,7 @@ IB_ERRORS = {
     "unknown kernel": (dict(ib="fix ib all rbc/ib flow kernel roma4"), ["rbc/ib", "kernel", "roma4", "roma3"]),
     "unknown integrator": (dict(ib="fix ib all rbc/ib flow integrator verlet"),
                            ["rbc/ib", "integrator", "verlet", "midpoint"]),
+    "gaps of points": (dict(ib=SHEAR["ib"] + " sheets no gaps yes"), ["gaps yes needs sheets yes"]),
     "unknown scheme": (dict(ib="fix ib all rbc/ib flow scheme plastic"), ["rbc/ib", "scheme", "plastic", "elastic"]),
     "direct without inertia": (dict(ib=DIRECT), ["rbc/ib ib", "scheme direct", "inertia unsteady or convective"]),
     "direct with projection": (dict(fluid=UNSTEADY + " scheme projection", ib=DIRECT),

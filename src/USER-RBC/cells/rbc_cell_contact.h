@@ -1,6 +1,10 @@
 #ifndef LMP_RBC_CELL_CONTACT_H
 #define LMP_RBC_CELL_CONTACT_H
 
+#include "contact/near_triangles.h"
+
+#include <vector>
+
 namespace LAMMPS_NS {
 
 /// A pair style in which surfaces of cells act on each other. Its ranges are known once LAMMPS has
@@ -10,9 +14,29 @@ class CellContact {
   /// Gap below which surfaces of cells of two atom types act on each other; 0 if they do not.
   virtual double contact_range(int itype, int jtype) const = 0;
 
+  /// Vertices of this rank and the surfaces near them at the last evaluation of forces, as near as
+  /// the largest range, and as the readers of contacts want. Corners may be ghosts.
+  virtual const std::vector<rbc::VertexContact> &near_contacts() const = 0;
+
  protected:
   ~CellContact() = default;
 };
+
+/// A fix that reads the contacts of a CellContact.
+class ContactReader {
+ public:
+  /// Gap of surfaces up to which it wants them. Known before LAMMPS initialises pair styles.
+  virtual double widest_gap() const = 0;
+
+ protected:
+  ~ContactReader() = default;
+};
+
+/// The first pair style that is a CellContact, one of pair_style hybrid included, or null.
+CellContact *find_cell_contact(class Force *force);
+
+/// The widest gap that any fix wants, or 0.
+double widest_gap_wanted(class Modify *modify);
 
 }    // namespace LAMMPS_NS
 

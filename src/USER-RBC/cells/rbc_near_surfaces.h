@@ -48,6 +48,9 @@ class NearSurfaces : protected Pointers {
   /// seen nearer to it than `range`, at most that of build().
   const std::vector<Contact> &contacts(double range);
 
+  /// What contacts() returned last.
+  const std::vector<Contact> &last_contacts() const { return finder.last_contacts(); }
+
   bool is_vertex(int i) const { return cell_of(i) != nullptr; }
 
   /// Molecule ID of the first cell whose vertices are of more than one atom type, or 0. Collective.

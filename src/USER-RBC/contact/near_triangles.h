@@ -61,6 +61,9 @@ class NearTriangles {
   /// must.
   const std::vector<VertexContact> &contacts(const double *x, double range);
 
+  /// What contacts() returned last.
+  const std::vector<VertexContact> &last_contacts() const { return contacts_; }
+
   std::size_t bytes() const;
 
  private:

@@ -2,6 +2,7 @@
 
 #include "domain.h"
 #include "error.h"
+#include "fluid/sheet_velocity.h"
 #include "lammps.h"
 #include "neighbor.h"
 
@@ -34,5 +35,6 @@ int LAMMPS_NS::marker_layers(LAMMPS *lmp, const std::string &style, const std::a
                       style, skin, of_skin, cells[d], "xyz"[d], *std::min_element(prd, prd + 3));
     layers = std::max(layers, of_skin + reach.cells_per_step);
   }
-  return static_cast<int>(std::ceil(layers)) + KERNEL_LAYERS + (reach.sheets ? 1 : 0);
+  return static_cast<int>(std::ceil(layers)) + KERNEL_LAYERS +
+         (reach.sheets ? fluid::SheetVelocity::layers : 0);
 }

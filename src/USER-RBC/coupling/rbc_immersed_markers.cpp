@@ -6,6 +6,7 @@
 #include "cells/rbc_cell_membranes.h"
 #include "comm.h"
 #include "coupling/rbc_driven_flow.h"
+#include "coupling/rbc_gap_slip.h"
 #include "coupling/rbc_massive_markers.h"
 #include "dihedral.h"
 #include "domain.h"
@@ -157,6 +158,7 @@ void ImmersedMarkers::velocities_of_flow(Stage stage)
     if (outside >= 0) report_outside(outside);
     flow_->solve(*stop_, !estimating_spectrum_);
     flow_->interpolate(set(), rows(atom->v));
+    if (gaps_) gaps_->add(members_, rows(atom->f), force->ftm2v, rows(atom->v));
   }
   constrain_volume(stage);
 }
@@ -190,6 +192,7 @@ void ImmersedMarkers::apply_mobility(double factor, Numbers &response)
     for (int d = 0; d < 3; ++d) applied_[3 * std::size_t(i) + d] = factor * atom->f[i][d];
   const int outside = flow_->apply_mobility(set(), applied_.data(), response.data());
   if (outside >= 0) report_outside(outside);
+  if (gaps_) gaps_->add(members_, applied_.data(), 1, response.data());
 }
 
 /* ---------------------------------------------------------------------- */

@@ -14,6 +14,7 @@ namespace LAMMPS_NS {
 
 class CellMembranes;
 class DrivenFlow;
+class GapSlip;
 class MassiveMarkers;
 
 /// The atoms of a group as markers of a flow. Their velocity is a function of positions and time:
@@ -40,6 +41,10 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
 
   /// Gives the markers masses (fluid with inertia, scheme direct); null: they have none.
   void set_masses(MassiveMarkers *masses) { masses_ = masses; }
+
+  /// Lets surfaces slide in gaps narrower than the grid; null: they do as the grid lets them. Set
+  /// at the start of a run.
+  void set_gap_slip(GapSlip *gaps) { gaps_ = gaps; }
 
   /// Collects errors of this fix, its membranes and pair styles; its check() ends the run or
   /// rejects the step.
@@ -139,6 +144,7 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
   std::vector<int> members_;
   ImplicitViscosity viscosity_;
   MassiveMarkers *masses_ = nullptr;
+  GapSlip *gaps_ = nullptr;
   std::shared_ptr<CollectiveStop> stop_;
   rbc::Stopwatch exchanging_;
   bool estimating_spectrum_ = false, any_speed_between_steps_ = false;

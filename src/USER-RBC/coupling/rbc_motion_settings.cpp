@@ -63,7 +63,8 @@ MotionSettings MotionSettings::read(LAMMPS *lmp, int narg, char **arg, int first
                 settings.error_bound = args.positive("adapt error");
                 settings.largest_dt = args.positive("adapt largest timestep");
               }},
-             {"sheets", [&] { settings.sheets = args.logical() ? Sheets::YES : Sheets::NO; }}});
+             {"sheets", [&] { settings.sheets = args.logical() ? Sheets::YES : Sheets::NO; }},
+             {"gaps", [&] { settings.gaps = settings.asks_gaps = args.logical(); }}});
   return settings;
 }
 
@@ -73,6 +74,8 @@ void MotionSettings::check(Error *error) const
     error->all(FLERR, "Fix rbc/ib order {} needs integrator rkc", options.order);
   if (sheets == Sheets::YES && direct)
     error->all(FLERR, "Fix rbc/ib sheets yes needs scheme elastic");
+  if (asks_gaps && (sheets == Sheets::NO || direct))
+    error->all(FLERR, "Fix rbc/ib gaps yes needs sheets yes and scheme elastic");
 }
 
 const rbc::IntegratorKind *LAMMPS_NS::default_integrator(bool inertia)

@@ -19,6 +19,8 @@ struct MotionSettings {
   bool iterates = false;    ///< tol or maxiter was given
   bool direct = false;      ///< scheme direct
   Sheets sheets = Sheets::WITH_MEMBRANES;
+  bool gaps = true;          ///< sheets slide in gaps as the fluid there lets them
+  bool asks_gaps = false;    ///< gaps yes was given
 
   /// Reads the arguments from `first` on. A bad one is an error.
   static MotionSettings read(LAMMPS *, int narg, char **arg, int first);

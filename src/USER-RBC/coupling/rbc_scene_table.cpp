@@ -143,7 +143,9 @@ double SceneTable::contact_range(int itype, int jtype) const
   for (StepPart *part : pair_step_parts(force))
     if (auto *const contact = dynamic_cast<CellContact *>(part))
       range = std::max(range, contact->contact_range(itype, jtype));
-  if (range > 0 || !force->pair || utils::strmatch(force->pair_style, "^(zero|rbc/)")) return range;
+  if (range > 0 || !force->pair || utils::strmatch(force->pair_style, "^zero") ||
+      utils::strmatch(force->pair_style, "^rbc/"))
+    return range;
   return std::sqrt(force->pair->cutsq[itype][jtype]);
 }
 

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "fluid/forcing.h"
+#include "fluid/grid.h"
+#include "fluid/spreading.h"
+
+namespace fluid {
+
+/// Velocity with which sheets of markers move: u - C_2 D u + C_4 D D u, with D the sum of the
+/// second differences over the directions, see sheet_correction().
+class SheetVelocity {
+ public:
+  /// Layers of cells around a kernel that the differences need.
+  static constexpr int layers = 2;
+
+  /// The velocity field that kernels interpolate, in all of `velocity`'s box but the outermost
+  /// layers; its ghosts must be filled. Valid until the next call. Not collective.
+  const VectorField &of(const VectorField &velocity, KernelKind kernel, const Grid &grid,
+                        const PlateVelocities &plates);
+
+  std::size_t bytes() const { return curvature_.bytes() + result_.bytes(); }
+
+ private:
+  VectorField curvature_, result_;
+};
+
+/// What is left of a box when `layers` are taken off on all sides but beyond plates, where the
+/// mirror image gives the velocity.
+Box without_layers(Box box, const Grid &grid, int layers);
+
+}    // namespace fluid

@@ -1,0 +1,25 @@
+#include "cells/rbc_cell_contact.h"
+
+#include "fix.h"
+#include "modify.h"
+#include "support/rbc_pair_parts.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+
+CellContact *LAMMPS_NS::find_cell_contact(Force *force)
+{
+  for (StepPart *part : pair_step_parts(force))
+    if (auto *const contact = dynamic_cast<CellContact *>(part)) return contact;
+  return nullptr;
+}
+
+double LAMMPS_NS::widest_gap_wanted(Modify *modify)
+{
+  double widest = 0;
+  for (Fix *fix : modify->get_fix_list())
+    if (const auto *const reader = dynamic_cast<ContactReader *>(fix))
+      widest = std::max(widest, reader->widest_gap());
+  return widest;
+}
