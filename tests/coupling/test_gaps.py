@@ -4,7 +4,7 @@ import unittest
 
 import numpy as np
 
-from lammps_case import POTENTIALS, dump_line, in_parallel, read_template, run, scene
+from lammps_case import POTENTIALS, SHEAR, attempt, dump_line, in_parallel, read_template, run, scene
 
 DX, VISCOSITY = 1.0, 1.5
 SEEN = "pair_style rbc/jkr 0.5\npair_coeff * * none"
@@ -147,6 +147,12 @@ class BetweenCells(unittest.TestCase):
         one, *others = in_parallel(lambda ranks, newton: velocities(forces, "yes", ranks, newton), layouts)
         for layout, other in zip(layouts[1:], others):
             self.assertLess(abs(other - one).max() / abs(one).max(), 1e-12, layout)
+
+    def test_fixes_in_the_wrong_order(self):
+        # pair styles are initialised before fixes, and ask fix rbc/ib how far it sees
+        result = attempt(scene(before=SEEN, membrane=None, fluid=None,
+                               ib="\n".join(SHEAR[line] for line in ("ib", "membrane", "fluid"))))
+        self.assertIn("Fix rbc/ib ib must be defined after fix rbc/membrane mem", result.error)
 
     def test_without_the_pair_style_cells_are_not_seen(self):
         forces = random_forces(5)

@@ -18,7 +18,8 @@ CellContact *LAMMPS_NS::find_cell_contact(Force *force)
 double LAMMPS_NS::widest_gap_wanted(Modify *modify)
 {
   double widest = 0;
-  for (Fix *fix : modify->get_fix_list())
+  const std::vector<Fix *> fixes = modify->get_fix_list();    // readers ask for the list, too
+  for (Fix *fix : fixes)
     if (const auto *const reader = dynamic_cast<ContactReader *>(fix))
       widest = std::max(widest, reader->widest_gap());
   return widest;

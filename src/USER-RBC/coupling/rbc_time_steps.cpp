@@ -337,7 +337,8 @@ void TimeSteps::set_timestep(double dt, bigint from_step)
   update->dt = dt;
   update->dt_default = 0;
   if (force->pair) force->pair->reset_dt();
-  for (Fix *fix : modify->get_fix_list()) fix->reset_dt();
+  const std::vector<Fix *> fixes = modify->get_fix_list();    // which others ask for, too
+  for (Fix *fix : fixes) fix->reset_dt();
 
   // output by time is planned anew as at the end of the step before
   const bigint step = update->ntimestep;
