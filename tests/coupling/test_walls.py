@@ -250,16 +250,20 @@ class Vessel(unittest.TestCase):
     """A tube of 22.5 um made by rbc/surface, driven inside."""
     RADIUS, OFFSETS = 11.25, {"peskin4": OFFSET, "roma3": 0.2662}
 
-    def vessel(self, drive, kernel="peskin4", plates=False, cells=40):
+    def run_vessel(self, drive, kernel="peskin4", plates=False, cells=40, steps=2):
         width, h = 26, 32 / cells
         made = (f"region box block 0 32 0 {width} 0 {width}\ncreate_box 2 box angle/types 1\n"
                 f"region tube cylinder x 13 13 {self.RADIUS} INF INF\n"
                 f"rbc/surface tube type 2 spacing {1.2 * h} offset {self.OFFSETS[kernel] * h} mass 1.0")
         across = round(width / h / 2) * 2
-        result = run(script(f"inside tube {drive}" + (" " + AT_REST if plates else ""), f"kernel {kernel}", data=made,
-                            fluid=BASE["fluid"].replace("dx 1.0", f"grid {cells} {across} {across}"), run="run 2",
-                            thermo=BASE["thermo"] + "".join(f" f_flow[{n}]" for n in (13, 16, 19)),
-                            **(PLATES if plates else {})))
+        return run(script(f"inside tube {drive}" + (" " + AT_REST if plates else ""), f"kernel {kernel}",
+                          data=made,
+                          fluid=BASE["fluid"].replace("dx 1.0", f"grid {cells} {across} {across}"), run=f"run {steps}",
+                          thermo=BASE["thermo"] + "".join(f" f_flow[{n}]" for n in (13, 16, 19)),
+                          **(PLATES if plates else {})))
+
+    def vessel(self, *words):
+        result = self.run_vessel(*words)
         last = {name: column[-1] for name, column in result.thermo.items()}
         last["law"] = last["f_flow[16]"] / (last["f_flow[19]"] * np.pi * self.RADIUS**4 / (8 * VISCOSITY))
         return last
@@ -273,6 +277,11 @@ class Vessel(unittest.TestCase):
                     self.assertAlmostEqual(last["law"], 1, delta=0.012 if plates else 0.006)
                     if not plates:
                         self.assertAlmostEqual(last["f_w[1]"] / (1e-5 * np.pi * self.RADIUS**2 * 32), 1, delta=1e-3)
+
+    def test_without_a_drive(self):
+        message = "Fix rbc/fluid flow inside tube: nothing drives the flow there; use mean or body"
+        self.assertIn(message, self.run_vessel("", cells=16, steps=0).printed)
+        self.assertNotIn(message, self.run_vessel("body 1e-5 0 0", cells=16, steps=0).printed)
 
     def test_given_rate(self):
         last = self.vessel("mean x 1.875e-4")

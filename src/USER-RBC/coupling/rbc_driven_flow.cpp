@@ -142,6 +142,22 @@ void DrivenFlow::connect_walls(const std::vector<WallGroup *> &groups)
     wall_memory_ = {};
   }
   walls_->connect(groups, free_mean_);
+  warn_of_vessel_at_rest();
+}
+
+/* ----------------------------------------------------------------------
+   a vessel whose author forgot what drives the flow
+------------------------------------------------------------------------- */
+
+void DrivenFlow::warn_of_vessel_at_rest() const
+{
+  if (settings_.inside.empty() || settings_.plates || settings_.prescribed_mean || comm->me != 0)
+    return;
+  if (controls_flow_rate() || walls_->moves()) return;
+  for (const NumberOrVariable &component : forcing_.body)
+    if (component.is_variable() || component.value(lmp) != 0) return;
+  error->warning(FLERR, "{} inside {}: nothing drives the flow there; use mean or body", style_,
+                 settings_.inside);
 }
 
 void DrivenFlow::warn_of_idle_forcing() const

@@ -197,6 +197,7 @@ class DrivenFlow : public StepPart, protected Pointers {
   void take_demands(const std::vector<FluidClient *> &clients, const std::string &fluid_id);
   void connect_walls(const std::vector<WallGroup *> &groups);
   void warn_of_idle_forcing() const;
+  void warn_of_vessel_at_rest() const;
   void start_control();
   void continue_control();
   double rate_inside() { return mean_inside()[forcing_.held_direction()]; }
