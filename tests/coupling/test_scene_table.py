@@ -119,10 +119,10 @@ class Warnings(unittest.TestCase):
                               ["repel each other from 0.5 fluid spacings on; below 1 "]),
             "long edges": (dict(fluid=PLATES.replace("dx 1.2", "dx 0.4"), neighbor="neighbor 0.4 bin",
                                 timestep="timestep 20"),
-                           [f"mem are {mean / 0.4:.3g} fluid spacings long on average, and 0.5 to 2 are resolved: "
+                           [f"mem are {mean / 0.4:.3g} fluid spacings long on average, and 0.5 to 1.7 are resolved: "
                             "use a larger dx or a template with more vertices"]),
             "short edges": (dict(fluid=PLATES.replace("dx 1.2", "dx 3")),
-                            [f"mem are {mean / 3:.3g} fluid spacings long on average, and 0.5 to 2 are resolved: "
+                            [f"mem are {mean / 3:.3g} fluid spacings long on average, and 0.5 to 1.7 are resolved: "
                              "use a smaller dx or a template with fewer vertices"])}
         results = in_parallel(lambda name: run(scene(**cases[name][0])), [(name,) for name in cases])
         for name, result in zip(cases, results):

@@ -24,7 +24,7 @@ using namespace LAMMPS_NS;
 
 // mean edges of cells in fluid spacings: longer ones let fluid through, shorter ones move as one
 
-static constexpr double SHORTEST_EDGE = 0.5, LONGEST_EDGE = 2.0;
+static constexpr double SHORTEST_EDGE = 0.5, LONGEST_EDGE = 1.7;
 
 // ranges of contact in fluid spacings
 
