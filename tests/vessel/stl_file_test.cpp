@@ -104,10 +104,44 @@ TEST(STLFile, SaysWhatIsWrong)
   bytes.pop_back();
   expect(write(bytes), "neither");
   expect(write("solid empty\nendsolid empty\n"), "no triangles");
-  std::string words = text(triangles);
+  const std::string words = text(triangles);
   expect(write(words.substr(0, words.size() / 2)), "triangle");
-  words.replace(words.find("vertex") + 7, 3, "abc");
-  expect(write(words), "not three numbers in triangle 1");
+  expect(write("solid one\nfacet normal 0 0 1\n"), "ends within a triangle");
+}
+
+/// A damaged line is no triangle that the file does not hold.
+TEST(STLFile, NamesTheLineThatIsDamaged)
+{
+  const auto said = [](const std::string &third, const std::string &line_end) {
+    const std::string lines = "solid one#facet normal 0 0 1#outer loop#vertex 4 10.6 7.9#vertex " +
+                              third + "#vertex 1 2 3#endloop#endfacet#endsolid#";
+    std::string bytes;
+    for (const char letter : lines) bytes += letter == '#' ? line_end : std::string(1, letter);
+    try {
+      const std::vector<Triangle> read = rbc::read_stl(write(bytes));
+      return "taken: " + std::to_string(read.at(0)[1][2]);
+    } catch (const std::invalid_argument &problem) {
+      return std::string(problem.what());
+    }
+  };
+  for (const std::string third : {"4 10.6 7.91341[16", "4 10.6 abc", "4 10.6", "4 10.6 0x10",
+                                  "4 10.6 nan", "4 10.6 1e999", "4 10.6 +-1", "4 10.6 1,5"})
+    for (const std::string line_end : {"\n", "\r\n", "\r"}) {
+      const std::string problem = said(third, line_end);
+      EXPECT_EQ(problem.rfind("a corner is not three numbers in triangle 1 on line ", 0), 0)
+          << third << ": " << problem;
+      const std::string line = third == "4 10.6" ? "6" : "5";    // read on the next line
+      EXPECT_NE(problem.find("line " + line + ": \""), std::string::npos) << problem;
+    }
+  for (const std::string third : {"4 10.6 7.9 3", "4 10.6 7.9 facet", "4 10.6 7.9\nvertx 1 2 3"})
+    EXPECT_NE(said(third, "\n").find("vertex, endloop or endfacet was expected"),
+              std::string::npos);
+  EXPECT_NE(said("1 2 3\nvertex 1 2 3", "\n").find("more than three corners"), std::string::npos);
+  EXPECT_NE(said("1 2 3\nendfacet", "\n").find("less than three corners"), std::string::npos);
+  EXPECT_NE(said("1 2 3\nvertex 1 2 3\nendfacet", "\n").find("facet was expected on line 8, not"),
+            std::string::npos);
+  for (const std::string third : {"4 10.6 7.5", "4 10.6 +7.5E0", "4 10.6\n75e-1", "4 10.6 7.5 "})
+    EXPECT_EQ(said(third, "\n"), "taken: 7.500000");
 }
 
 }    // namespace
