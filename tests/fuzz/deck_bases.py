@@ -20,6 +20,8 @@ SMALL_BLOOD = dict(CELL, hematocrit=0.15, error=1e-2)
 # What makes each example small, in its own variables.
 EXAMPLES = {
     "balloon": dict(CAPSULE, dx=0.5, box=5),
+    "blood": dict(CELL, length=10, gap=10, hematocrit=0.2, every=1, frames=1),
+    "blood-tube": dict(CELL, tube=12, length=10, hematocrit=0.15, adhesion=2e-4, every=1, frames=1),
     "capsule-channel": dict(CAPSULE, cells=5, length=4, ratio=0.6),
     "capsule-shear": dict(CAPSULE, dx=0.5, length=4, gap=4),
     "cell-statistics": dict(CELL, cells=2),
@@ -39,6 +41,12 @@ EXAMPLES = {
 }
 
 MATERIALS = {"capsule-shear": "capsule", "stiff": "paper-table2"}
+
+# Examples with parts to choose from: their folder, and the conditions of jumps that are true.
+PARTS = {
+    "blood": ("blood", ["${tube} == 0"]),
+    "blood-tube": ("blood", ["${tube} > 0"]),
+}
 
 # What the examples do not use.
 FURTHER = """\
@@ -107,23 +115,42 @@ def stl_binary(triangles):
     return b"vessel".ljust(80) + struct.pack("<I", len(triangles)) + b"".join(records)
 
 
-def _joined(script):
-    """The script without continued lines, comments, loops, and commands of the shell."""
+def _joined(script, conditions=None):
+    """The script without continued lines, comments, loops, and commands of the shell. With
+    conditions, which may be none, jumps are followed."""
     script = re.sub(r"&[ \t]*\n[ \t]*", "", script)
     lines = [re.sub(r"(^|\s)#.*", "", line).rstrip() for line in script.splitlines()]
+    if conditions is not None:
+        lines = _followed(lines, conditions)
     return [line for line in lines if line and
             not re.match(r"(jump|next|label|quit|shell)\b|if .* jump|if .*\"jump", line)]
+
+
+def _followed(lines, conditions):
+    """The lines that are left by jumps to labels below, if these conditions are true."""
+    left, label = [], None
+    for line in lines:
+        if label is None:
+            left.append(line)
+        elif line.split()[:2] == ["label", label]:
+            label = None
+        jump = re.match(r'(?:if "(.*?)" then ")?jump\s+SELF\s+(\w+)', line)
+        if label is None and jump and jump.group(1) in [None, *conditions]:
+            label = jump.group(2)
+    return left
 
 
 def _without_variables(line):
     """Files lie beside the script."""
     line = re.sub(r"\$\{templates\}/(\$\{shape\}|\$\{sheet\}|\w+)\.mol", "cell.mol", line)
+    line = line.replace("${templates}/dense.blood", "dense.blood")
     return re.sub(r"\$\{templates\}/(\$\{material\}|\w+)\.material", "cell.material", line)
 
 
 def _example(name, variables):
-    script = (ROOT / "examples" / name / f"in.{name}").read_text()
-    lines = [_without_variables(line) for line in _joined(script)]
+    folder, conditions = PARTS.get(name, (name, None))
+    script = (ROOT / "examples" / folder / f"in.{folder}").read_text()
+    lines = [_without_variables(line) for line in _joined(script, conditions)]
     vessel = any("make_vessel" in line for line in lines)
     lines = ["region vessel rbc/mesh vessel.stl" if "make_vessel" in line else line
              for line in lines]
@@ -133,6 +160,9 @@ def _example(name, variables):
     files = {SCRIPT: "\n".join(settings + lines) + "\n",
              "cell.mol": (POTENTIALS / f"{shape}.mol").read_text(),
              "cell.material": (POTENTIALS / f"{material}.material").read_text()}
+    if folder == "blood":
+        dense = (POTENTIALS / "dense.blood").read_text()
+        files["dense.blood"] = "\n".join(_joined(dense)) + "\n"
     files = {file: text.encode() for file, text in files.items()}
     if vessel:
         files["vessel.stl"] = stl_text(prism(0, 16, (0, 0), 5.5))

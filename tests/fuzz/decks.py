@@ -60,7 +60,8 @@ def limit_resources(sanitized):
 def environment(session):
     options = f"detect_leaks=0:hard_rss_limit_mb={MEMORY_MB}:max_allocation_size_mb={MEMORY_MB}"
     return {**os.environ, **ENVIRONMENT, "ASAN_OPTIONS": f"{options}:{os.environ.get('ASAN_OPTIONS', '')}",
-            "OMPI_MCA_orte_tmpdir_base": session}
+            "OMPI_MCA_orte_tmpdir_base": session,
+            "OMPI_MCA_ess_singleton_isolated": "1"}    # one task needs no daemon of MPI
 
 
 def end_all(process):
