@@ -127,32 +127,46 @@ void RBCCreate::read_mix(Arguments &args)
     args.fail("Rbc/create mix fractions must add up to less than 1, not {:.6g}",
               1 - kinds[0].fraction);
   const int type = args.atom_type("type");
-  kinds.push_back({id, make_cell_template(lmp, id, "rbc/create mix"), fraction, type, 0});
+  const auto same =
+      std::find_if(kinds.begin(), kinds.end(), [&](const Kind &kind) { return kind.id == id; });
+  std::shared_ptr<const rbc::SurfaceTemplate> shape;
+  if (same != kinds.end())
+    shape = same->shape;
+  else
+    shape = make_cell_template(lmp, id, "rbc/create mix");
+  kinds.push_back({id, shape, fraction, type, 0});
 }
 
 /* ----------------------------------------------------------------------
-   of each kind, with fractions as near as whole numbers allow
+   of each kind, with fractions as near as whole numbers allow. What cannot fit is not tried: it
+   would take long to fail.
 ------------------------------------------------------------------------- */
 
 void RBCCreate::set_counts()
 {
   if (hematocrit > 0) {
-    const double count = std::round(hematocrit * region_volume() / mean_cell_volume());
+    const double count = std::round(hematocrit * volume / mean_cell_volume());
     if (count < 1)
       error->all(FLERR, "Rbc/create hematocrit {} is less than one cell in the volume of {:.6g}",
-                 hematocrit, region_volume());
+                 hematocrit, volume);
     if (count > MAXSMALLINT)
       error->all(FLERR, "Rbc/create hematocrit {} is {:.6g} cells: too many", hematocrit, count);
     wanted = static_cast<int>(count);
   }
-  double fraction = 0;
+  double fraction = 0, filled = 0;
   int before = 0;
   for (Kind &kind : kinds) {
     fraction += kind.fraction;
     const int here = static_cast<int>(std::lround(fraction * wanted));
     kind.count = here - before;
     before = here;
+    filled += kind.count * kind.shape->volume;
   }
+  if (filled >= volume)
+    error->all(FLERR,
+               "Rbc/create: the volume of {} cells, {:.6g}, must be below that of the {} they are "
+               "packed into, {:.6g}",
+               wanted, filled, region ? "region" : "box", volume);
 }
 
 double RBCCreate::mean_cell_volume() const
@@ -193,7 +207,8 @@ void RBCCreate::set_extent()
     hi = hi.cwiseMin(Vec3(region->extent_xhi, region->extent_yhi, region->extent_zhi));
   }
   length = hi - lo;
-  if (region && (length.minCoeff() <= 0 || region_volume() == 0))
+  volume = length.minCoeff() > 0 ? region_volume() : 0;
+  if (region && volume == 0)
     error->all(FLERR, "Rbc/create region {} holds nothing of the simulation box", region->id);
 }
 
@@ -261,19 +276,22 @@ std::vector<RBCCreate::Cell> RBCCreate::pack()
       Vec3(domain->prd),
       {domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0}};
   std::vector<const rbc::SurfaceTemplate *> templates;
-  std::vector<int> kind_of;
+  std::vector<const Kind *> kind_of;    // of each cell
+  std::vector<int> template_of;
   for (const Kind &kind : kinds) {
-    kind_of.insert(kind_of.end(), kind.count, static_cast<int>(templates.size()));
-    templates.push_back(kind.shape.get());
+    const auto same = std::find(templates.begin(), templates.end(), kind.shape.get());
+    kind_of.insert(kind_of.end(), kind.count, &kind);
+    template_of.insert(template_of.end(), kind.count, static_cast<int>(same - templates.begin()));
+    if (same == templates.end()) templates.push_back(kind.shape.get());
   }
   const auto share = [this](const std::vector<double> &mine) { return gather_all(mine, world); };
-  rbc::CellPacking packing(box, templates, kind_of, gap, seed, {comm->me, comm->nprocs, share});
+  rbc::CellPacking packing(box, templates, template_of, gap, seed, {comm->me, comm->nprocs, share});
   packing.avoid(existing_atoms());
   const RegionEnclosure enclosure(region, domain, -gap / 2);
   if (region) packing.confine(enclosure, lo, length);
 
   if (!packing.pack(attempts)) {
-    const double fraction = wanted * mean_cell_volume() / region_volume();
+    const double fraction = wanted * mean_cell_volume() / volume;
     error->all(
         FLERR,
         "Rbc/create could not pack {} cells without overlap in {} attempts; the densest "
@@ -287,7 +305,7 @@ std::vector<RBCCreate::Cell> RBCCreate::pack()
 
   std::vector<Cell> cells;
   for (std::size_t c = 0; c < kind_of.size(); ++c)
-    cells.push_back({&kinds[kind_of[c]], packing.cells()[c].centre, packing.cells()[c].rotation});
+    cells.push_back({kind_of[c], packing.cells()[c].centre, packing.cells()[c].rotation});
   return cells;
 }
 

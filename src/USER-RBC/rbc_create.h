@@ -24,7 +24,7 @@ class RBCCreate : public Command {
  private:
   struct Kind {
     std::string id;
-    std::unique_ptr<rbc::SurfaceTemplate> shape;
+    std::shared_ptr<const rbc::SurfaceTemplate> shape;    // one for all kinds of a template
     double fraction;
     int type;
     int count;
@@ -46,6 +46,7 @@ class RBCCreate : public Command {
   double hematocrit = 0;
   class Region *region = nullptr;
   rbc::Vec3 lo = rbc::Vec3::Zero(), length = rbc::Vec3::Zero();    // where cells may lie
+  double volume = 0;                                               // of that region or box
   int seed = 0;
   double gap = -1;
   int attempts = 3000;

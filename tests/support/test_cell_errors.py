@@ -242,7 +242,13 @@ CREATE_ERRORS = {
     "too dense": (dict(cells=CREATE + "hematocrit 0.7 seed 5 attempts 100"),
                   ["rbc/create", "could not pack 14 cells", "100 attempts", "densest reached", "volume fraction",
                    "wanted"]),
-    "region too small for a cell": (dict(cells="region small block 4 8 4 8 4 8\n" + CREATE +
+    "more cells than fill the box": (dict(cells=CREATE + "number 2000000000 seed 5"),
+                                     ["rbc/create", "the volume of 2000000000 cells, 1.78", "e+11, must be below",
+                                      "box they are packed into, 1728"]),
+    "more cells than fill a region": (dict(cells="region small block 4 8 4 8 4 8\n" + CREATE +
+                                           "number 1 seed 5 region small mix rbc 0.5 1"),
+                                      ["rbc/create", "the volume of 1 cells, 89", "region they are packed into, 64"]),
+    "region too small for a cell": (dict(cells="region small block 3.5 8.5 3.5 8.5 3.5 8.5\n" + CREATE +
                                          "number 1 seed 5 region small"), ["rbc/create", "could not pack 1 cells", "densest"]),
     "region outside": (dict(cells="region far block 40 80 40 80 40 80\n" + CREATE + "number 1 seed 5 region far"),
                        ["rbc/create", "region", "far"]),
