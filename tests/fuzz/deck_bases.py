@@ -7,24 +7,28 @@ few triangles, so that a mutation of its STL file hits something.
 import math
 import re
 import struct
+from functools import lru_cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
-from lammps_case import POTENTIALS, ROOT
+from lammps_case import POTENTIALS, ROOT, make_template
 
 SCRIPT = "in.deck"
 STEPS = 2
 
 CELL = dict(shape="rbc_162", dx=1.0)
+PACKED = dict(shape="rbc_42", dx=1.0)    # tables of distances of a finer cell would take most of the time
 CAPSULE = dict(shape="capsule_162")
-SMALL_BLOOD = dict(CELL, hematocrit=0.15, error=1e-2)
+SMALL_BLOOD = dict(PACKED, hematocrit=0.15, error=1e-2)
 
 # What makes each example small, in its own variables.
 EXAMPLES = {
     "balloon": dict(CAPSULE, dx=0.5, box=5),
-    "blood": dict(CELL, length=10, gap=10, hematocrit=0.2, every=1, frames=1),
-    "blood-tube": dict(CELL, tube=12, length=10, hematocrit=0.15, adhesion=2e-4, every=1, frames=1),
+    "blood": dict(PACKED, length=10, gap=10, hematocrit=0.2, every=1, frames=1),
+    "blood-tube": dict(PACKED, tube=12, length=10, hematocrit=0.15, adhesion=2e-4, every=1, frames=1),
     "capsule-channel": dict(CAPSULE, cells=5, length=4, ratio=0.6),
     "capsule-shear": dict(CAPSULE, dx=0.5, length=4, gap=4),
-    "cell-statistics": dict(CELL, cells=2),
+    "cell-statistics": dict(PACKED, cells=2),
     "doublet": dict(CELL),
     "fahraeus": dict(SMALL_BLOOD, diameter=10, length=10),
     "relaxation": dict(CELL),
@@ -33,8 +37,8 @@ EXAMPLES = {
     "shear-cell": dict(CELL),
     "stiff": dict(CELL, box=12),
     "stretch": dict(CELL, length=16, width=12, patch=3.5),
-    "suspension": dict(CELL, cells=2, hematocrit=0.1, gap=12),
-    "suspension-shear": dict(CELL, cells=3),
+    "suspension": dict(PACKED, cells=2, hematocrit=0.1, gap=12),
+    "suspension-shear": dict(PACKED, cells=3),
     "tank-treading": dict(CELL, height=12, width=12),
     "throat": dict(SMALL_BLOOD, length=2, width=1.5, throat=1.2),
     "tube-poiseuille": dict(SMALL_BLOOD, diameter=10, length=10),
@@ -55,7 +59,7 @@ atom_style      molecular
 boundary        p p p
 region          box block 0 12 0 12 0 12
 create_box      2 box angle/types 1
-molecule        rbc rbc_162.mol
+molecule        rbc cell.mol
 region          vessel rbc/mesh vessel.stl
 rbc/create      rbc number 1 seed 5 region vessel type 1
 rbc/surface     vessel type 2 spacing 1.0
@@ -115,6 +119,17 @@ def stl_binary(triangles):
     return b"vessel".ljust(80) + struct.pack("<I", len(triangles)) + b"".join(records)
 
 
+@lru_cache
+def _template(shape):
+    """The text of a template of potentials/, or of a coarse cell like them."""
+    if shape != "rbc_42":
+        return (POTENTIALS / f"{shape}.mol").read_text()
+    with TemporaryDirectory() as folder:
+        output = Path(folder) / "cell.mol"
+        make_template("disc", "--diameter", 7.82, "--frequency", 2, "--output", output)
+        return output.read_text()
+
+
 def _joined(script, conditions=None):
     """The script without continued lines, comments, loops, and commands of the shell. With
     conditions, which may be none, jumps are followed."""
@@ -158,7 +173,7 @@ def _example(name, variables):
     shape = variables.get("shape", "capsule_162")
     material = MATERIALS.get(name, "healthy")
     files = {SCRIPT: "\n".join(settings + lines) + "\n",
-             "cell.mol": (POTENTIALS / f"{shape}.mol").read_text(),
+             "cell.mol": _template(shape),
              "cell.material": (POTENTIALS / f"{material}.material").read_text()}
     if folder == "blood":
         dense = (POTENTIALS / "dense.blood").read_text()
@@ -172,13 +187,13 @@ def _example(name, variables):
 def bases():
     """Name -> files of each deck."""
     decks = {name: _example(name, variables) for name, variables in EXAMPLES.items()}
-    cell = (POTENTIALS / "rbc_162.mol").read_bytes()
+    cell = _template("rbc_42").encode()
     unsteady = FURTHER.replace("inside vessel mean x 1e-4", "inertia unsteady scheme projection")
     unsteady = unsteady.replace("f_wall[7]", "").replace("ab2", "midpoint")\
         .replace("viscosity 100 thinning 10 1e-5", "").replace("fix             wall", "#")
     for name, script, file in (("further", FURTHER, stl_text(prism())),
                                ("unsteady", unsteady, stl_binary(prism()))):
-        decks[name] = {SCRIPT: script.encode(), "rbc_162.mol": cell, "vessel.stl": file}
+        decks[name] = {SCRIPT: script.encode(), "cell.mol": cell, "vessel.stl": file}
     return {name: {**deck, SCRIPT: shorten(deck[SCRIPT])} for name, deck in decks.items()}
 
 

@@ -41,7 +41,7 @@ LINES = """
     pair_style rbc/jkr 0.6 self yes|pair_style zero 1.0|pair_style none|pair_coeff * * repulsive 1 0.3|pair_coeff * * adhesive 1 1e-3 0.3
     reset_atoms id|reset_atoms mol all|reset_atoms image all|replicate 2 1 1|dump g all grid 1 g.* f_flow:grid:velocity[9]
     dump a all custom 1 a.* id f_membrane f_ib c_cell|fix g all ave/grid 1 1 1 4 4 4 vx|molecule rbc cell.mol scale 0.001
-    molecule rbc cell.mol scale 100|molecule rbc rbc_162.mol|fix ag all ave/time 1 2 2 c_agg[*] mode vector ave running
+    molecule rbc cell.mol scale 100|molecule rbc2 cell.mol|fix ag all ave/time 1 2 2 c_agg[*] mode vector ave running
     """
 
 

@@ -51,7 +51,9 @@ class Deck:
             (folder / name).write_bytes(content)
 
 
-def limit_resources(sanitized):
+def limit_resources(sanitized, core):
+    # tasks on one core hand it over to each other; on a busy machine those on several wait for long
+    os.sched_setaffinity(0, {core})
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     if not sanitized:    # the sanitizer reserves address space and has a limit of its own
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY_MB << 20,) * 2)
@@ -78,7 +80,7 @@ def end_all(process):
     process.wait()
 
 
-def start(options, folder, ranks, limit):
+def start(options, folder, ranks, limit, core):
     """(exit code or None, what was printed)"""
     command = [str(options.lmp), "-in", SCRIPT, "-log", "none"]
     if ranks > 1:
@@ -87,7 +89,7 @@ def start(options, folder, ranks, limit):
         process = subprocess.Popen(
             command, cwd=folder, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
             env=environment(session), start_new_session=True,
-            preexec_fn=lambda: limit_resources(options.sanitized))
+            preexec_fn=lambda: limit_resources(options.sanitized, core))
         try:
             code = process.wait(limit)
         except subprocess.TimeoutExpired:
@@ -145,11 +147,13 @@ def try_deck(options, originals, number):
     deck.write(folder)
     (folder / "changes").write_text(f"base: {deck.base}\n" + "\n".join(deck.changes) + "\n")
     ends = []
+    cores = sorted(os.sched_getaffinity(0))
+    core = cores[number % len(cores)]
     for ranks in options.ranks:
-        code, printed = start(options, folder, ranks, options.limit)
+        code, printed = start(options, folder, ranks, options.limit, core)
         if code is None and not options.no_retry:
             deck.write(folder)    # the first try may have written over them
-            code, printed = start(options, folder, ranks, RETRY * options.limit)
+            code, printed = start(options, folder, ranks, RETRY * options.limit, core)
         ends.append((number, ranks, verdict(code, printed), f"{deck.base}: {last_words(printed)}"))
     if not options.keep and all(end[2] in GOOD for end in ends):
         shutil.rmtree(folder)
