@@ -5,14 +5,17 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace rbc {
 
 namespace {
 
 constexpr int spacings_per_radius = 32;
+constexpr int block = 4;    // nodes in each direction, for which triangles are chosen together
 
-/// Signed distance to a surface, by looking at all triangles.
+/// Signed distance to a surface, by looking at all triangles that may be the nearest.
 class ExactDistance {
  public:
   explicit ExactDistance(const SurfaceTemplate &surface)
@@ -36,15 +39,38 @@ class ExactDistance {
     normals_ = feature_normals(
         triangles_, surface.vertex_count(), [&](int t, int c) { return surface.triangles[t][c]; },
         [&](int t, int c) { return neighbor[t][c]; });
+    all_.resize(triangles_.size());
+    std::iota(all_.begin(), all_.end(), 0);
   }
 
-  /// Of a point known to be no further than `bound` away.
-  double operator()(const Vec3 &p, double bound) const
+  /// Chooses the triangles for points no further than `radius` from a centre; returns a bound for
+  /// their distances.
+  double choose(const Vec3 &centre, double radius)
+  {
+    const double distance = std::abs(among(all_, centre, std::numeric_limits<double>::infinity()));
+    const double farthest = 1.001 * (distance + 2 * radius);
+    chosen_.clear();
+    for (const int t : all_)
+      if ((centre - middles_[t]).norm() <= farthest + radii_[t]) chosen_.push_back(t);
+    return 1.001 * (distance + radius);
+  }
+
+  /// Of a point for which triangles were chosen, known to be no further than `bound` away.
+  double operator()(const Vec3 &p, double bound) const { return among(chosen_, p, bound); }
+
+ private:
+  std::vector<Triangle> triangles_;
+  std::vector<FeatureNormals> normals_;
+  std::vector<Vec3> middles_;
+  std::vector<double> radii_;
+  std::vector<int> all_, chosen_;    ///< in one order, which decides between those equally near
+
+  double among(const std::vector<int> &chosen, const Vec3 &p, double bound) const
   {
     double least = std::numeric_limits<double>::infinity();
     int nearest = 0;
     std::array<double, 3> weights{};
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    for (const int t : chosen) {
       const double too_far = std::min(bound, std::sqrt(least)) + radii_[t];
       if ((p - middles_[t]).squaredNorm() > too_far * too_far) continue;
       const auto w = closest_on_triangle(p, triangles_[t]);
@@ -57,12 +83,6 @@ class ExactDistance {
     const double side = (p - point(nearest, weights)).dot(normals_[nearest].at(weights));
     return std::copysign(std::sqrt(least), side);
   }
-
- private:
-  std::vector<Triangle> triangles_;
-  std::vector<FeatureNormals> normals_;
-  std::vector<Vec3> middles_;
-  std::vector<double> radii_;
 
   Vec3 point(int t, const std::array<double, 3> &w) const
   {
@@ -86,18 +106,26 @@ DistanceField::DistanceField(const SurfaceTemplate &surface, double reach) :
     hi_[d] = lo_[d] + (nodes_[d] - 1) * spacing_;
   }
 
-  const ExactDistance exact(surface);
-  distance_.reserve(std::size_t(nodes_[0]) * nodes_[1] * nodes_[2]);
-  for (int k = 0; k < nodes_[2]; ++k)
-    for (int j = 0; j < nodes_[1]; ++j) {
-      double bound = std::numeric_limits<double>::infinity();
-      for (int i = 0; i < nodes_[0]; ++i) {
-        const double distance = exact(lo_ + spacing_ * Vec3(i, j, k), bound);
-        distance_.push_back(static_cast<float>(distance));
-        bound = std::abs(distance) +
-                1.001 * spacing_;    // the distance changes no faster than the place
+  ExactDistance exact(surface);
+  const std::size_t row = nodes_[0], layer = row * nodes_[1];
+  distance_.resize(layer * nodes_[2]);
+  for (int k = 0; k < nodes_[2]; k += block)
+    for (int j = 0; j < nodes_[1]; j += block)
+      for (int i = 0; i < nodes_[0]; i += block) {
+        const double half = 0.5 * (block - 1);
+        const double far = exact.choose(lo_ + spacing_ * Vec3(i + half, j + half, k + half),
+                                        std::sqrt(3.0) * half * spacing_);
+        for (int n = k; n < std::min(k + block, nodes_[2]); ++n)
+          for (int m = j; m < std::min(j + block, nodes_[1]); ++m) {
+            double bound = far;
+            for (int l = i; l < std::min(i + block, nodes_[0]); ++l) {
+              const double distance = exact(lo_ + spacing_ * Vec3(l, m, n), bound);
+              distance_[l + row * m + layer * n] = static_cast<float>(distance);
+              // the distance changes no faster than the place
+              bound = std::abs(distance) + 1.001 * spacing_;
+            }
+          }
       }
-    }
 }
 
 DistanceField::Sample DistanceField::at(const Vec3 &x) const
