@@ -20,7 +20,7 @@ failed=0
 for target in "${targets[@]}"; do
   say "fuzzing $target for $seconds s"
   mkdir -p "$BUILD/corpus/$target" "$BUILD/findings"
-  "$BUILD/${target}_fuzz" -seed=1 -max_total_time="$seconds" -timeout=120 -rss_limit_mb=4000 -print_final_stats=1 \
+  "$BUILD/${target}_fuzz" -seed=1 -max_total_time="$seconds" -timeout=300 -rss_limit_mb=4000 -print_final_stats=1 \
     -dict="$BUILD/seeds/$target.dict" -artifact_prefix="$BUILD/findings/$target-" \
     "$BUILD/corpus/$target" "$BUILD/seeds/$target" || failed=1
 done

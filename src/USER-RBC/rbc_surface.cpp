@@ -31,6 +31,7 @@ void RBCSurface::command(int narg, char **arg)
       {domain->xperiodic != 0, domain->yperiodic != 0, domain->zperiodic != 0}};
   Vec3 lo, hi;
   extent(lo, hi);
+  check_spacing(lo, hi);
   const RegionEnclosure enclosure(region, domain, offset);
   const rbc::SurfaceSampling surface(enclosure, box, lo, hi, spacing);
   if (surface.points().empty())
@@ -87,6 +88,21 @@ void RBCSurface::extent(Vec3 &lo, Vec3 &hi) const
   if ((hi - lo).minCoeff() <= 0)
     error->all(FLERR, Error::ARGZERO, "Rbc/surface region {} has no surface in the simulation box",
                region->id);
+}
+
+/* ----------------------------------------------------------------------
+   a spacing in other units would take days
+------------------------------------------------------------------------- */
+
+void RBCSurface::check_spacing(const Vec3 &lo, const Vec3 &hi) const
+{
+  constexpr double most = 1e11;
+  const double places = rbc::SurfaceSampling::grid_size(lo, hi, spacing);
+  if (places > most)
+    error->all(FLERR, Error::ARGZERO,
+               "Rbc/surface spacing {:g} asks for a look at {:.3g} places about region {}; at most "
+               "{:g} are possible: check its unit, or use a larger spacing",
+               spacing, places, region->id, most);
 }
 
 /* ---------------------------------------------------------------------- */

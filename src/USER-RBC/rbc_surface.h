@@ -26,6 +26,7 @@ class RBCSurface : public Command {
 
   void parse(int, char **);
   void extent(rbc::Vec3 &, rbc::Vec3 &) const;
+  void check_spacing(const rbc::Vec3 &, const rbc::Vec3 &) const;
   void create_atoms(const std::vector<rbc::Vec3> &);
 };
 

@@ -199,6 +199,7 @@ class Surface(Case):
                                ("tube type 2", "Rbc/surface needs spacing"),
                                ("tube spacing 1", "Rbc/surface needs type"),
                                ("tube type 2 spacing 0", "Rbc/surface spacing value 0 must be > 0"),
+                               ("tube type 2 spacing 1e-3", "Rbc/surface spacing 0.001 asks for a look at"),
                                ("tube type 2 spacing 1 mass -1", "Rbc/surface mass value -1 must be > 0"),
                                ("tube type 2 spacing", "Illegal rbc/surface spacing command"),
                                ("tube type 2 spacing 1 colour red", "Unknown rbc/surface keyword colour; allowed: type"),

@@ -44,6 +44,11 @@ SurfaceSampling::SurfaceSampling(const Enclosure &enclosure, const PackingBox &b
   measure();
 }
 
+double SurfaceSampling::grid_size(const Vec3 &lo, const Vec3 &hi, double spacing)
+{
+  return ((hi - lo) / (grid_spacing * spacing)).prod();
+}
+
 /* ----------------------------------------------------------------------
    of the lines of a grid with the surface
 ------------------------------------------------------------------------- */

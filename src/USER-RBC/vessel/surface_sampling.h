@@ -16,6 +16,9 @@ class SurfaceSampling {
   SurfaceSampling(const Enclosure &enclosure, const PackingBox &box, const Vec3 &lo, const Vec3 &hi,
                   double spacing);
 
+  /// Places that are looked at from lo to hi.
+  static double grid_size(const Vec3 &lo, const Vec3 &hi, double spacing);
+
   const std::vector<Vec3> &points() const { return points_; }
 
   double area() const { return area_; }
