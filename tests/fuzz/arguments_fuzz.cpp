@@ -11,11 +11,14 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <dlfcn.h>
 #include <initializer_list>
 #include <mpi.h>
 #include <stdexcept>
 #include <string>
+#include <sys/mman.h>
+#include <unistd.h>
 
 extern "C" void lammpsplugin_init(void *lmp, void *handle, void *regfunc);
 namespace LAMMPS_NS {
@@ -24,7 +27,42 @@ void plugin_register(lammpsplugin_t *plugin, void *lmp);
 
 namespace {
 
-const std::string molecule = std::string("molecule rbc ") + POTENTIALS + "/capsule_162.mol";
+// an octahedron: the fewer triangles, the more lines are tried
+constexpr const char *TEMPLATE = R"(# a cell
+
+6 atoms
+8 angles
+
+Coords
+
+1 1 0 0
+2 -1 0 0
+3 0 1 0
+4 0 -1 0
+5 0 0 1
+6 0 0 -1
+
+Angles
+
+1 1 1 3 5
+2 1 3 2 5
+3 1 2 4 5
+4 1 4 1 5
+5 1 3 1 6
+6 1 2 3 6
+7 1 4 2 6
+8 1 1 4 6
+)";
+
+/// A file in memory, which LAMMPS opens by its name.
+std::string template_file()
+{
+  const std::size_t size = std::strlen(TEMPLATE);
+  const int descriptor = memfd_create("template", 0);
+  if (descriptor < 0 || write(descriptor, TEMPLATE, size) != static_cast<ssize_t>(size))
+    std::abort();
+  return "/proc/self/fd/" + std::to_string(descriptor);
+}
 
 constexpr std::array SCENE = {
     "units micro",
@@ -112,7 +150,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
   static void *const self = dlopen(nullptr, RTLD_LAZY);
   lammpsplugin_init(&lammps, self, reinterpret_cast<void *>(&LAMMPS_NS::plugin_register));
   for (const char *command : SCENE) run(lammps, {command});
-  run(lammps, {molecule});
+  static const std::string file = template_file();
+  run(lammps, {"molecule rbc " + file});
   for (const char *command : FIXES) run(lammps, {command});
   try {
     run(lammps, {line});

@@ -31,7 +31,7 @@ ARGUMENTS = [
     ("mesh", "vessel.stl scale 2 shift 1 2 3 side out"),
     ("create", "rbc single 1 2 3 rotate 30 0 1 0 type 1"),
     ("create", "rbc number 1 seed 5 overlap 0.1 mix rbc 0.5 2 region box attempts 2 velocity 0.1"),
-    ("create", "rbc hematocrit 0.003 seed 5 attempts 2"),
+    ("create", "rbc hematocrit 0.01 seed 5 attempts 2"),
     ("surface", "ball type 2 spacing 1.5 offset 0.3 mass 1"),
     ("jkr", "0.6 self yes"),
     ("coeff", "1 1 adhesive 0.07 0.001 0.4"),
