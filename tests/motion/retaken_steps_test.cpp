@@ -29,6 +29,7 @@ class Store : public rbc::PointStore {
 class Relaxing : public rbc::Motion {
  public:
   double last_rate = 0.1;
+  double drift = 0;    // of the first number, which does not relax with it
   std::vector<int> divided;
   double furthest_fraction = 0;
 
@@ -37,6 +38,7 @@ class Relaxing : public rbc::Motion {
     v.resize(x.size());
     for (std::size_t i = 0; i < x.size(); ++i)
       v[i] = -(i + 1 == x.size() ? last_rate : 0.1 * static_cast<double>(i + 1)) * x[i];
+    if (drift > 0) v[0] = drift;
     furthest_fraction = std::max(furthest_fraction, fraction);
   }
   void sum(double *, int) const override {}
@@ -94,6 +96,34 @@ TEST_F(RetakenStep, IsStableForAModeThatWasMissed)
   EXPECT_GT(method.stages(), 5 * stages);
   EXPECT_NEAR(end[0], x[0] * std::exp(-0.1 * dt), 0.06 * x[0]);
   for (int i = 1; i < 5; ++i) EXPECT_LT(std::abs(end[i]), std::abs(x[i]));
+}
+
+/// All points together are hardly driven back where one of them drifts: what has grown is found
+/// while it is small.
+TEST_F(RetakenStep, IsStableForAModeThatADriftHides)
+{
+  motion.drift = 10;
+  x = {0, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3};
+  take();
+  accept();
+  motion.last_rate = 1.2;
+  int grown = 0;
+  double furthest = 0;
+  for (int n = 0; n < 30; ++n) {
+    take();
+    if (method.has_grown()) {
+      ++grown;
+      ASSERT_TRUE(refuse());
+      take();
+      EXPECT_FALSE(method.has_grown());
+    }
+    accept();
+    furthest = std::max(furthest, std::abs(x[5]));
+  }
+  EXPECT_EQ(grown, 1);
+  EXPECT_LT(furthest, 0.1);    // of the length that the method was given
+  EXPECT_LT(std::abs(x[5]), 0.01);
+  EXPECT_NEAR(x[0], 31 * dt * motion.drift, 1e-6);
 }
 
 /// More stages even where the estimate is what it was; then in parts; then no more.

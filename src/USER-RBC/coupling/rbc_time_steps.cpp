@@ -248,13 +248,8 @@ bool TimeSteps::try_step()
     if (control_.active()) {
       measure_error();
       next_dt_ = control_.next(update->dt, local_error_);
-    } else {
+    } else
       check_result();
-      if (integrator_->has_grown())
-        note_failure(
-            fmt::format("{}: displacements grew as in an unstable step at step {}", style_, step()),
-            Flaw::unstable);
-    }
   } catch (const rbc::StepFailure &failure) {
     const std::string what = fmt::format("{}: {} at step {}", style_, failure.what(), step());
     if (!control_.active()) {
@@ -278,7 +273,8 @@ void TimeSteps::note_failure(const std::string &what, Flaw flaw)
 
 /* ----------------------------------------------------------------------
    Checks the positions at the end of the step. LAMMPS computes the forces there, too late to take
-   the step again. So they are computed here as well where something is likely to be wrong.
+   the step again. So they are computed here as well where something is likely to be wrong: after
+   only two stages nothing was checked behind a quarter of the step.
 ------------------------------------------------------------------------- */
 
 void TimeSteps::check_result()
@@ -287,7 +283,12 @@ void TimeSteps::check_result()
   markers_.check_positions();
   if (tries_ > 1) markers_.check_displacements(X_, X_new_);    // parts allow more
   markers_.stop()->check();
-  if (!integrator_->can_retake() || (tries_ == 1 && !markers_.is_nearly_folded())) return;
+  if (!integrator_->can_retake()) return;
+  if (integrator_->has_grown())
+    return note_failure(
+        fmt::format("{}: displacements grew as in an unstable step at step {}", style_, step()),
+        Flaw::unstable);
+  if (tries_ == 1 && !integrator_->was_sudden() && !markers_.is_nearly_folded()) return;
   V_new_ = V_;
   markers_.velocity_at_end(X_new_, V_new_);
   velocities_known_ = true;

@@ -85,6 +85,10 @@ class Integrator {
   /// Whether the step() just made has moved the points as one that is unstable would.
   virtual bool has_grown() const { return false; }
 
+  /// Whether the step() just made has taken a point far from where its velocity at the start would
+  /// have. What was checked at an earlier stage need not hold at its end.
+  virtual bool was_sudden() const { return false; }
+
   /// Whether a step that went wrong may be taken again with the same timestep, in another way.
   virtual bool can_retake() const { return false; }
 

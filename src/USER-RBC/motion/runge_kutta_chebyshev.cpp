@@ -75,15 +75,26 @@ void RungeKuttaChebyshev::step(Motion &motion, PointStore &store, const StepStar
     choose_stages(start.dt, radius);
     chebyshev_.step(motion, start.dt, start.x, start.v, past_, x);
   }
-  check_growth(start, parts);
+  check_growth(motion, store, start, x, parts);
 }
 
 /// Points that are driven back faster than what the stages are stable for tell of modes that the
-/// estimate has missed. An estimate that was made at this step is as good as there is.
-void RungeKuttaChebyshev::check_growth(const StepStart &start, int parts)
+/// estimate has missed. Where only a few of many points grow, the others hide this rate: then a
+/// sudden motion of these few leads to a new estimate. One that was made at this step is as good as
+/// there is.
+void RungeKuttaChebyshev::check_growth(Motion &motion, PointStore &store, const StepStart &start,
+                                       const Numbers &x, int parts)
 {
-  grown_ = automatic_ && !stability_.is_of_step(start.step) &&
-           start.dt / parts * chebyshev_.rate_back() > chebyshev_.stability_limit(stages());
+  grown_ = sudden_ = false;
+  if (!automatic_) return;
+  const double stiffness = chebyshev_.stability_limit(stages()) / chebyshev_.stability_limit(2);
+  sudden_ = stability_.is_sudden(motion, start, x, stiffness);
+  if (stability_.is_of_step(start.step)) return;
+  const double limit = parts / start.dt * chebyshev_.stability_limit(stages());
+  grown_ = chebyshev_.rate_back() > limit;
+  if (grown_ || !sudden_) return;
+  stability_.suspect(motion, store, mode_vector(), start, x);
+  grown_ = stability_.radius(motion, store, mode_vector(), start) > limit;
 }
 
 void RungeKuttaChebyshev::load_past(const PointStore &store, double dt)

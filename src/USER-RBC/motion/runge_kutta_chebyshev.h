@@ -24,6 +24,7 @@ class RungeKuttaChebyshev : public Integrator {
   }
   void points_migrated(const Motion &motion, std::size_t points, const PointStore &store) override;
   bool has_grown() const override { return grown_; }
+  bool was_sudden() const override { return sudden_; }
   bool can_retake() const override { return automatic_; }
   bool retake() override;
   void step(Motion &motion, PointStore &store, const StepStart &start, Numbers &x) override;
@@ -41,7 +42,7 @@ class RungeKuttaChebyshev : public Integrator {
   bool automatic_;
   StabilityEstimate stability_;
   int retakes_ = 0;    ///< of the step that is being taken
-  bool grown_ = false;
+  bool grown_ = false, sudden_ = false;
 
   // third order
   DisplacementHistory past_;
@@ -54,7 +55,8 @@ class RungeKuttaChebyshev : public Integrator {
   int mode_vector() const { return past_steps(); }
   void load_past(const PointStore &store, double dt);
   void step_in_parts(Motion &motion, const StepStart &start, double radius, int parts, Numbers &x);
-  void check_growth(const StepStart &start, int parts);
+  void check_growth(Motion &motion, PointStore &store, const StepStart &start, const Numbers &x,
+                    int parts);
   void choose_stages(double dt, double radius);
 };
 

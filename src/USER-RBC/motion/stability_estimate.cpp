@@ -21,7 +21,9 @@ constexpr double LARGEST_RISE = 5;    // over the estimate
 
 constexpr double DISPLACEMENT = 1.0e-5;    // over the length that the caller gives
 constexpr int GUESS_ITERATIONS = 20;       // without a mode of an earlier estimate
-constexpr int SUSPECT_ITERATIONS = 10;     // after a step that was refused
+constexpr int SUSPECT_ITERATIONS = 10;     // after a step that was refused or is suspicious
+
+constexpr double SUDDEN = 0.05;    // distance over the length that the caller gives
 
 /// Switches the motion's estimate of the spectrum on, and off when it goes out of scope.
 class Estimating {
@@ -47,7 +49,7 @@ void guess(const Motion &motion, Numbers &mode)
 
 void StabilityEstimate::start_run(double length, bool continues)
 {
-  displacement_ = DISPLACEMENT * length;
+  length_ = length;
   doubted_ = continues && interval_ > 0;
   if (doubted_) return;
   radius_step_ = estimated_step_ = -1;
@@ -111,7 +113,7 @@ double StabilityEstimate::measure(Motion &motion, const StepStart &start)
   const Estimating estimating(motion);
   velocity_ = start.v;
   motion.velocity(start.x, 0, velocity_);
-  return spectrum_.estimate(motion, start.x, velocity_, displacement_, mode_);
+  return spectrum_.estimate(motion, start.x, velocity_, DISPLACEMENT * length_, mode_);
 }
 
 void StabilityEstimate::foresee(double last, std::int64_t step)
@@ -157,6 +159,23 @@ void StabilityEstimate::raise()
 void StabilityEstimate::accept()
 {
   if (least_ > 0) least_ = FALL * least_ > radius_ ? FALL * least_ : 0;
+}
+
+bool StabilityEstimate::is_sudden(const Motion &motion, const StepStart &start, const Numbers &end,
+                                  double stiffness) const
+{
+  const double furthest = SUDDEN * stiffness * length_;
+  double count = 0;
+  for (std::size_t i = 0; i < end.size(); i += 3) {
+    double square = 0;
+    for (std::size_t d = i; d < i + 3; ++d) {
+      const double apart = end[d] - start.x[d] - start.dt * start.v[d];
+      square += apart * apart;
+    }
+    if (!(square <= furthest * furthest)) count += 1;
+  }
+  motion.sum(&count, 1);
+  return count > 0;
 }
 
 void StabilityEstimate::suspect(const Motion &motion, PointStore &store, int mode_vector,

@@ -23,8 +23,14 @@ class StabilityEstimate {
   /// The radius for a step; estimates it where it is due. Throws StepFailure if it is not a number.
   double radius(Motion &motion, PointStore &store, int mode_vector, const StepStart &start);
 
-  /// A step that led to `end` was refused: modes may have become faster. What it grew along joins
-  /// the mode.
+  /// Whether a step that led to `end` took a point far from where its velocity at the start would
+  /// have: a part of `length`, times `stiffness`, as fast modes have `stiffness` times the velocity
+  /// for the same displacement.
+  bool is_sudden(const Motion &motion, const StepStart &start, const Numbers &end,
+                 double stiffness) const;
+
+  /// A step that led to `end` was refused or is suspicious: modes may have become faster. What it
+  /// grew along joins the mode.
   void suspect(const Motion &motion, PointStore &store, int mode_vector, const StepStart &start,
                const Numbers &end);
 
@@ -50,11 +56,11 @@ class StabilityEstimate {
  private:
   SpectralRadius spectrum_;
   Numbers mode_, velocity_;
-  double displacement_ = 0;
+  double length_ = 0;
   double radius_ = 0, raw_radius_ = 0;    ///< with a margin; the last estimate as it was
   double least_ = 0;                      ///< radius in use at least; 0 where no step failed
   double risen_ = 0;                      ///< what it becomes with the next estimate
-  bool suspected_ = false;                ///< the rejected step's growth was added to the mode
+  bool suspected_ = false;                ///< a suspicious step's growth was added to the mode
   std::int64_t radius_step_ = -1;         ///< of the estimate in use; -1 where a new one is due
   std::int64_t estimated_step_ = -1;      ///< of the last estimate
   int interval_ = 0;                      ///< steps between estimates; 0 before the first run
