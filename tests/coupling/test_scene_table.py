@@ -132,6 +132,18 @@ class Warnings(unittest.TestCase):
                 for warning in found:
                     self.assertTrue(any(words in warning for words in cases[name][1]), warning)
 
+    def test_cells_that_begin_at_a_plate(self):
+        lowest = -read_template(POTENTIALS / "rbc_162.mol")[0][:, 2].min()
+        apart = {"lower": (lowest + 0.12, 6), "upper": (6, 12 - lowest - 0.13), "far": (lowest + 0.21, 6)}
+        for ranks in (1, 2):
+            for name, (one, other) in apart.items():
+                cells = f"rbc/create rbc single 6 6 {one}\nrbc/create rbc single 18 6 {other}"
+                result = run(scene(**dict(TWO, cells=cells), before=CONTACT.format(1.3), last=REPELLED), ranks)
+                expected = {"lower": ["0.12"], "upper": ["0.13"], "far": []}[name]
+                found = [re.search(r"a cell is (\S+) fluid spacings from a plate; nearer than 0.2 ", warning)
+                         for warning in warnings(result)]
+                self.assertEqual([match.group(1) for match in found], expected)
+
     def test_are_turned_off_and_printed_once(self):
         quiet = run(scene(**TWO, last="fix_modify flow warn no"))
         self.assertEqual(warnings(quiet), [])

@@ -30,6 +30,11 @@ static constexpr double SHORTEST_EDGE = 0.5, LONGEST_EDGE = 1.7;
 
 static constexpr double SHORTEST_RANGE = 1.0;
 
+// Distance of cells from a plate in fluid spacings. Fluid at rest at the plate holds back what
+// repels a vertex that is nearer: it does not come off, or it comes off within a step.
+
+static constexpr double NEAREST_PLATE = 0.2;
+
 /* ---------------------------------------------------------------------- */
 
 SceneTable::SceneTable(LAMMPS *lmp, std::string style) : Pointers(lmp), style_(std::move(style)) {}
@@ -45,6 +50,7 @@ void SceneTable::print(const DrivenFlow &flow)
   find_types();
   find_contacts();
   find_repelling();
+  plate_distance_ = flow.settings().plates ? plate_distance() : HUGE_VAL;
   const std::string text = table(flow) + boundaries(flow);
   if (text == printed_) return;
   printed_ = text;
@@ -174,6 +180,19 @@ void SceneTable::find_repelling()
   }
 }
 
+/// Of the nearest vertex of a cell.
+double SceneTable::plate_distance() const
+{
+  int of_cells = 0;
+  for (const Kind &kind : kinds_) of_cells |= kind.membranes->groupbit();
+  double least = HUGE_VAL;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & of_cells)
+      least = std::min({least, atom->x[i][2] - domain->boxlo[2], domain->boxhi[2] - atom->x[i][2]});
+  MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, world);
+  return least;
+}
+
 /* ---------------------------------------------------------------------- */
 
 std::string SceneTable::table(const DrivenFlow &flow) const
@@ -248,9 +267,17 @@ void SceneTable::warn_of_contacts() const
 
 void SceneTable::warn_of_plates(const DrivenFlow &flow) const
 {
-  if (!flow.settings().plates || cells() < 2 || !repelling_.empty()) return;
-  error->warning(FLERR,
-                 "{}: nothing repels the {:.0f} cells from the plates; use fix wall/harmonic "
-                 "with zlo EDGE and zhi EDGE, or include potentials/dense.blood",
-                 style_, cells());
+  if (!flow.settings().plates || cells() < 2) return;
+  if (repelling_.empty())
+    error->warning(FLERR,
+                   "{}: nothing repels the {:.0f} cells from the plates; use fix wall/harmonic "
+                   "with zlo EDGE and zhi EDGE, or include potentials/dense.blood",
+                   style_, cells());
+  const double distance = plate_distance_ / spacing_;
+  if (distance < NEAREST_PLATE)
+    error->warning(FLERR,
+                   "{}: a cell is {:.2g} fluid spacings from a plate; nearer than {} it may be "
+                   "pushed through, or thrown off by what repels it: let the region in which "
+                   "rbc/create packs cells end off the plates",
+                   style_, distance, NEAREST_PLATE);
 }

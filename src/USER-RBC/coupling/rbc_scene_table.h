@@ -36,7 +36,7 @@ class SceneTable : protected Pointers {
 
   std::string style_, printed_;
   bool warns_ = true;
-  double spacing_ = 1, shear_rate_ = 0;
+  double spacing_ = 1, shear_rate_ = 0, plate_distance_ = 0;
   std::vector<Kind> kinds_;
   std::vector<std::string> apart_;    ///< cells that do not touch each other, in words
   std::string repelling_;             ///< fixes that repel cells from walls
@@ -46,6 +46,7 @@ class SceneTable : protected Pointers {
   void find_types();
   void find_contacts();
   void find_repelling();
+  double plate_distance() const;
   double contact_range(const Kind &one, const Kind &other) const;
   double contact_range(int itype, int jtype) const;
   double cells() const;
