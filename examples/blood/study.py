@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 """Which hematocrits and shear rates run through with which kernel, and how viscous the blood is.
 Runs in.blood over a strain of 5 for each (six minutes of processor time in all), writes blood.csv
-to a folder.
+to a folder. The series rbc_162, rbc_362 and rbc_642 are the same with these meshes, in smaller
+boxes and with steps of one length, `rkc auto` without `adapt` (an hour in all): meshes.csv. Series
+readme is the first scene of the top folder's README with these meshes: readme.csv.
 
 study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1] [--only roma3]
 """
@@ -24,33 +26,96 @@ RATES = 10, 100, 1000    # 1/s
 STRAIN = 5
 COLUMNS = "strain", "viscosity", "volume", "again", "seconds"
 
+MESHES = {"rbc_162": 0.65, "rbc_362": 0.5, "rbc_642": 0.4}    # fluid spacings, um: edges are 1.2 to 1.5 of them
+LENGTHS = {0.2: 18, 0.3: 16, 0.4: 14, 0.45: 14}               # of boxes with 8 to 12 cells, um
+GAP = 12
+MESH_COLUMNS = "through", *COLUMNS[:-1], "wrong", "warned"
+
+README_COLUMNS = "through", "strain", "again", "wrong", "warned"
+
 
 def settled(table, strain):
     """Mean viscosity over that of plasma in the last two fifths of the strain."""
     return table["v_relative"][table["v_sheared"] > 0.6 * strain].mean()
 
 
-def volume_change(printed):
-    """Relative change of the cells' volume over the run, from the lines of the log."""
-    volumes = [float(line.split()[7]) for line in printed.splitlines() if re.match(r"^ +\d+( +\S+){9} *$", line)]
-    return max(abs(volume / volumes[0] - 1) for volume in volumes)
+def log_lines(printed):
+    """The numbers of thermo_style in in.blood."""
+    return [[float(word) for word in line.split()]
+            for line in printed.splitlines() if re.match(r"^ +\d+( +\S+){10} *$", line)]
 
 
-def measure(arguments, variables):
-    """A row of COLUMNS; NaN for the viscosity of a run that stopped."""
+def warnings(printed):
+    """Those of the table of the scene at its start."""
+    return re.findall(r"^WARNING: Fix rbc/fluid flow: (.*) \(", printed, re.MULTILINE)
+
+
+def print_why(done):
+    """A run that stopped: what it had warned of, and its error."""
+    print(*warnings(done.stdout), *re.findall(r"^ERROR.*", done.stdout, re.MULTILINE), sep="\n", flush=True)
+
+
+def run_blood(arguments, variables):
+    """Dictionary of MESH_COLUMNS and seconds; NaN for the viscosity of a run that stopped."""
     with tempfile.TemporaryDirectory() as folder:
         begin = time.monotonic()
         done = example_study.run_script(arguments, HERE / "in.blood", folder, variables)
         seconds = time.monotonic() - begin
         table = read_table(Path(folder) / "blood.dat")
-    reached = table["v_sheared"][-1] if len(table["v_sheared"]) else 0
-    again = re.findall(r"^ +\d+.* (\d+) *$", done.stdout, re.MULTILINE)
+    lines = log_lines(done.stdout)
+    found = {"through": not done.returncode, "seconds": seconds, "viscosity": float("nan"),
+             "strain": table["v_sheared"][-1] if len(table["v_sheared"]) else 0,
+             "volume": max(abs(line[7] / lines[0][7] - 1) for line in lines),
+             "again": lines[-1][9], "wrong": lines[-1][10], "warned": bool(warnings(done.stdout))}
     if done.returncode:
-        print(*re.findall(r"^ERROR.*", done.stdout, re.MULTILINE), sep="\n")
-        viscosity = float("nan")
+        print_why(done)
     else:
-        viscosity = settled(table, variables["strain"])
-    return [[reached, viscosity, volume_change(done.stdout), float(again[-1]), seconds]]
+        found["viscosity"] = settled(table, variables["strain"])
+    return found
+
+
+def measure(arguments, variables):
+    """A row of COLUMNS."""
+    found = run_blood(arguments, variables)
+    return [[found[name] for name in COLUMNS]]
+
+
+def measure_mesh(arguments, variables):
+    """A row of MESH_COLUMNS."""
+    found = run_blood(arguments, variables)
+    return [[found[name] for name in MESH_COLUMNS]]
+
+
+def readme_scene(shape, dx, kernel, hematocrit, rate, length, lines=""):
+    """The first scene of the README with other numbers, and further lines before its run."""
+    text = (HERE.parents[1] / "README.md").read_text(encoding="utf-8")
+    scene = text.split("## A scene")[1].split("```")[1]
+    speed = rate * 1e-6 * GAP / 2
+    for pattern, new in (
+            (r"potentials/rbc_642", f"{example_study.POTENTIALS}/{shape}"), (r"dx 0\.5", f"dx {dx}"),
+            (r"kernel peskin4", f"kernel {kernel}"), (r"zlo -0\.0012", f"zlo -{speed}"), (r"zhi 0\.0012", f"zhi {speed}"),
+            (r"block 0 24 0 24 0 24", f"block 0 {length} 0 {length} 0 {GAP}"),
+            (r"number 27 (.*) overlap 0\.5", rf"hematocrit {hematocrit} \1 overlap 0.1"),
+            (r"rbc/vtk 250", "rbc/vtk 1000000"), (r"timestep +200", f"timestep {min(0.02 / (rate * 1e-6), 1000)}"),
+            (r"f_mem f_flow\[1\]", "f_mem f_ib[8] f_ib[10] f_flow[1]"), (r"thermo +50", "thermo 1"),
+            (r"run +500", f"{lines}\nrun $(ceil({STRAIN}/({rate}*1e-6*dt)))")):
+        scene, found = re.subn(pattern, new, scene)
+        if found != 1:
+            raise SystemExit(f"the README's scene has {found} times {pattern}")
+    return scene
+
+
+def measure_readme(arguments, variables):
+    """A row of README_COLUMNS."""
+    with tempfile.TemporaryDirectory() as folder:
+        script = Path(folder) / "in.scene"
+        script.write_text(readme_scene(**variables), encoding="utf-8")
+        done = example_study.run_script(arguments, script, folder, {})
+    if done.returncode:
+        print_why(done)
+    lines = [line.split() for line in done.stdout.splitlines() if re.match(r"^ +\d+( +\S+){7} *$", line)]
+    last = [float(word) for word in lines[-1]]
+    return [[not done.returncode, last[1] * variables["rate"] * 1e-6, last[3], last[4], bool(warnings(done.stdout))]]
 
 
 def cases():
@@ -59,11 +124,37 @@ def cases():
                                                           "strain": STRAIN}
 
 
+def mesh_cases():
+    for (mesh, dx), kernel, hematocrit, rate in itertools.product(MESHES.items(), KERNELS, HEMATOCRITS, RATES):
+        yield mesh, f"{mesh} {kernel} {hematocrit:g} {rate}", {
+            "shape": mesh, "dx": dx, "kernel": kernel, "hematocrit": hematocrit, "rate": rate,
+            "length": LENGTHS[hematocrit]}
+
+
+def blood_cases():
+    """With steps of one length."""
+    for mesh, label, variables in mesh_cases():
+        yield mesh, label, {**variables, "gap": GAP, "strain": STRAIN, "error": 0, "frames": 1000000}
+
+
+def readme_cases():
+    """The hardest ones with what dense blood needs, and all as they are."""
+    include = f"include {example_study.POTENTIALS}/dense.blood"
+    for _, label, variables in mesh_cases():
+        if variables["hematocrit"] >= 0.4 and variables["rate"] != 100:
+            yield "readme", f"{label} dense.blood", {**variables, "lines": include}
+    for _, label, variables in mesh_cases():
+        yield "readme", f"{label} as it is", variables
+
+
 def main():
-    arguments = command_line.parse(example_study.options(__doc__, KERNELS), HERE)
-    table = example_study.run_cases(arguments, arguments.output / "blood.csv", COLUMNS, cases(), measure)
-    for label, rows in table.items():
-        print(f"{label:18}", *(f"{value:10.4g}" for value in rows[-1]))
+    arguments = command_line.parse(example_study.options(__doc__, [*KERNELS, *MESHES, "readme"]), HERE)
+    for name, columns, runs, run in (("blood.csv", COLUMNS, cases(), measure),
+                                     ("meshes.csv", MESH_COLUMNS, blood_cases(), measure_mesh),
+                                     ("readme.csv", README_COLUMNS, readme_cases(), measure_readme)):
+        table = example_study.run_cases(arguments, arguments.output / name, columns, runs, run)
+        for label, rows in table.items():
+            print(f"{label:38}", *(f"{value:10.4g}" for value in rows[-1]))
 
 
 if __name__ == "__main__":
