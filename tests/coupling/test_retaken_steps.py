@@ -32,7 +32,7 @@ class RetakenSteps(unittest.TestCase):
         # explicit steps of any length that suits the membrane alone are unstable in contact
         for ranks in (1, 2):
             with self.subTest(ranks=ranks):
-                result = run(scene(**lifted(50, 20)), ranks)
+                result = run(scene(**lifted(50, 20, 5000)), ranks)
                 table, dump = result.thermo, result.dump()
                 print(f"\nlifted by a wall: {table['f_ib[8]'][-1]:.0f} steps taken again in {table['Step'][-1]:.0f}")
                 self.assertGreaterEqual(table["f_ib[8]"][-1], 1)
@@ -58,8 +58,8 @@ class RetakenSteps(unittest.TestCase):
             off = abs(heights - heights[0] - 0.001)
             print(f"\nspring of {stiffness:g}: {result.thermo['f_ib[8]'][-1]:.0f} steps taken again, "
                   f"the vertex at most {off.max():.2g} um off")
-            self.assertLess(off.max(), 0.05)
-            self.assertLess(off[-1], 0.001)
+            self.assertLess(off.max(), 0.1)
+            self.assertLess(off[-1], 0.02)
 
     def test_count_and_warning(self):
         result = run(scene(**lifted(5, 200, 4000)))

@@ -121,7 +121,7 @@ TEST_F(RetakenStep, IsStableForAModeThatADriftHides)
     furthest = std::max(furthest, std::abs(x[5]));
   }
   EXPECT_EQ(grown, 1);
-  EXPECT_LT(furthest, 0.1);    // of the length that the method was given
+  EXPECT_LT(furthest, 0.4);    // of the length that the method was given
   EXPECT_LT(std::abs(x[5]), 0.01);
   EXPECT_NEAR(x[0], 31 * dt * motion.drift, 1e-6);
 }

@@ -65,7 +65,8 @@ void RungeKuttaChebyshev::points_migrated(const Motion &motion, std::size_t poin
 void RungeKuttaChebyshev::step(Motion &motion, PointStore &store, const StepStart &start,
                                Numbers &x)
 {
-  const double radius = automatic_ ? stability_.radius(motion, store, mode_vector(), start) : 0;
+  const double radius =
+      automatic_ ? stability_.radius(motion, store, mode_vector(), start, bearable(start.dt)) : 0;
   load_past(store, start.dt);
   const bool starting = past_.steps() < past_steps();
   const int parts = std::max(starting ? STARTING_PARTS : 1, retakes_ > 0 ? 1 << (retakes_ - 1) : 1);
@@ -90,11 +91,17 @@ void RungeKuttaChebyshev::check_growth(Motion &motion, PointStore &store, const 
   const double stiffness = chebyshev_.stability_limit(stages()) / chebyshev_.stability_limit(2);
   sudden_ = stability_.is_sudden(motion, start, x, stiffness);
   if (stability_.is_of_step(start.step)) return;
-  const double limit = parts / start.dt * chebyshev_.stability_limit(stages());
+  const double limit = parts / start.dt * chebyshev_.stability_limit(stages());    // of the radius
   grown_ = chebyshev_.rate_back() > limit;
   if (grown_ || !sudden_) return;
   stability_.suspect(motion, store, mode_vector(), start, x);
-  grown_ = stability_.radius(motion, store, mode_vector(), start) > limit;
+  grown_ = stability_.radius(motion, store, mode_vector(), start, limit) > limit;
+}
+
+/// The radius up to which the stages are stable that are chosen for the last one.
+double RungeKuttaChebyshev::bearable(double dt) const
+{
+  return chebyshev_.stability_limit(chebyshev_.stages_for(dt * stability_.last())) / dt;
 }
 
 void RungeKuttaChebyshev::load_past(const PointStore &store, double dt)

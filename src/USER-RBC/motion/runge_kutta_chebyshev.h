@@ -58,6 +58,7 @@ class RungeKuttaChebyshev : public Integrator {
   void check_growth(Motion &motion, PointStore &store, const StepStart &start, const Numbers &x,
                     int parts);
   void choose_stages(double dt, double radius);
+  double bearable(double dt) const;
 };
 
 }    // namespace rbc

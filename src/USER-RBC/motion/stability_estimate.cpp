@@ -23,7 +23,7 @@ constexpr double DISPLACEMENT = 1.0e-5;    // over the length that the caller gi
 constexpr int GUESS_ITERATIONS = 20;       // without a mode of an earlier estimate
 constexpr int SUSPECT_ITERATIONS = 10;     // after a step that was refused or is suspicious
 
-constexpr double SUDDEN = 0.05;    // distance over the length that the caller gives
+constexpr double SUDDEN = 0.2;    // distance over the length that the caller gives
 
 /// Switches the motion's estimate of the spectrum on, and off when it goes out of scope.
 class Estimating {
@@ -59,29 +59,30 @@ void StabilityEstimate::start_run(double length, bool continues)
 }
 
 double StabilityEstimate::radius(Motion &motion, PointStore &store, int mode_vector,
-                                 const StepStart &start)
+                                 const StepStart &start, double bearable)
 {
-  if (is_due(motion, store, mode_vector, start)) estimate(motion, store, mode_vector, start);
+  if (is_due(motion, store, mode_vector, start, bearable))
+    estimate(motion, store, mode_vector, start);
   if (risen_ > 0) least_ = std::min(std::exchange(risen_, 0.0), LARGEST_RISE * radius_);
   return last();
 }
 
 bool StabilityEstimate::is_due(Motion &motion, const PointStore &store, int mode_vector,
-                               const StepStart &start)
+                               const StepStart &start, double bearable)
 {
   const bool doubted = std::exchange(doubted_, false);
   if (radius_step_ < 0 || start.step >= radius_step_ + interval_) return true;
-  return doubted && is_exceeded(motion, store, mode_vector, start);
+  return doubted && is_exceeded(motion, store, mode_vector, start, bearable);
 }
 
 /// Leaves everything as it is, so that a run in pieces is that of one piece.
 bool StabilityEstimate::is_exceeded(Motion &motion, const PointStore &store, int mode_vector,
-                                    const StepStart &start)
+                                    const StepStart &start, double bearable)
 {
   store.load(mode_vector, mode_);
   if (!(dot(motion, mode_, mode_) > 0)) return true;
   spectrum_.min_iterations = 1;
-  return !(measure(motion, start) <= radius_);
+  return !(SAFETY * measure(motion, start) <= bearable);
 }
 
 void StabilityEstimate::estimate(Motion &motion, PointStore &store, int mode_vector,

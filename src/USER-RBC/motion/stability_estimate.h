@@ -16,12 +16,14 @@ namespace rbc {
 class StabilityEstimate {
  public:
   /// At the start of a run; points are displaced by a small part of `length`. Where a run
-  /// `continues` another the estimate in use stays, unless the first step finds a larger radius:
-  /// what acts on the points may have become stiffer in between.
+  /// `continues` another the estimate in use stays, unless the first step finds a radius that is not
+  /// bearable: what acts on the points may have become stiffer in between.
   void start_run(double length, bool continues);
 
-  /// The radius for a step; estimates it where it is due. Throws StepFailure if it is not a number.
-  double radius(Motion &motion, PointStore &store, int mode_vector, const StepStart &start);
+  /// The radius for a step; estimates it where it is due. `bearable`: that up to which a step is
+  /// stable which is chosen for last(). Throws StepFailure if the radius is not a number.
+  double radius(Motion &motion, PointStore &store, int mode_vector, const StepStart &start,
+                double bearable);
 
   /// Whether a step that led to `end` took a point far from where its velocity at the start would
   /// have: a part of `length`, times `stiffness`, as fast modes have `stiffness` times the velocity
@@ -66,9 +68,10 @@ class StabilityEstimate {
   int interval_ = 0;                      ///< steps between estimates; 0 before the first run
   bool doubted_ = false;                  ///< the estimate in use is that of an earlier run
 
-  bool is_due(Motion &motion, const PointStore &store, int mode_vector, const StepStart &start);
-  bool is_exceeded(Motion &motion, const PointStore &store, int mode_vector,
-                   const StepStart &start);
+  bool is_due(Motion &motion, const PointStore &store, int mode_vector, const StepStart &start,
+              double bearable);
+  bool is_exceeded(Motion &motion, const PointStore &store, int mode_vector, const StepStart &start,
+                   double bearable);
   double measure(Motion &motion, const StepStart &start);
   void estimate(Motion &motion, PointStore &store, int mode_vector, const StepStart &start);
   void foresee(double last, std::int64_t step);
