@@ -21,7 +21,6 @@ class ShortRuns(unittest.TestCase):
                             ("ab2", "plates", "viscous", "no contact", "mean x")):
             with self.subTest(combination):
                 created, common = lines(combination)
-                common["ib"] += " kernel peskin4 sheets no"    # the radius must not grow: each run would estimate it anew
                 ends = []
                 for way in ("", "every 1 NULL"):
                     more = {"dump": dump_line(STEPS), "run": f"run {2 * STEPS} {way}"}

@@ -54,7 +54,7 @@ class RetakenStep : public testing::Test {
   RungeKuttaChebyshev method{0, 2};
   std::int64_t number = 0;
 
-  RetakenStep() { method.start_run(1.0, false); }
+  RetakenStep() { method.start_run(1.0, false, false); }
 
   void take()
   {

@@ -43,8 +43,8 @@ TEST(StabilityEstimate, GoesOnFromRunToRun)
   Relaxation relaxation;
   Store store(30), pieces(30);
   StabilityEstimate whole, part;
-  whole.start_run(1, false);
-  part.start_run(1, false);
+  whole.start_run(1, false, false);
+  part.start_run(1, false, false);
   for (int step = 1; step < 40; ++step) {
     relaxation.stiffness = 3 + 0.01 * step;
     const double expected = relaxation.radius(whole, store, step);
@@ -55,7 +55,7 @@ TEST(StabilityEstimate, GoesOnFromRunToRun)
       read.restore(part.state());
       part = read;
     }
-    part.start_run(1, true);
+    part.start_run(1, true, false);
   }
   EXPECT_EQ(pieces.mode, store.mode);
 }
@@ -68,10 +68,10 @@ TEST(StabilityEstimate, IsMadeAnewWhereItNoLongerHolds)
     Relaxation relaxation;
     Store store(30);
     StabilityEstimate estimate;
-    estimate.start_run(1, false);
+    estimate.start_run(1, false, false);
     const double before = relaxation.radius(estimate, store, 1);
     relaxation.stiffness *= factor;
-    estimate.start_run(1, true);
+    estimate.start_run(1, true, true);
     const double after = relaxation.radius(estimate, store, 2);
     if (factor * 3 < relaxation.bearable)
       EXPECT_EQ(after, before);
@@ -85,10 +85,10 @@ TEST(StabilityEstimate, IsMadeAtTheStartOfAnotherRun)
   Relaxation relaxation;
   Store store(30);
   StabilityEstimate estimate;
-  estimate.start_run(1, false);
+  estimate.start_run(1, false, false);
   relaxation.radius(estimate, store, 1);
   relaxation.stiffness /= 10;
-  estimate.start_run(1, false);
+  estimate.start_run(1, false, false);
   EXPECT_LT(relaxation.radius(estimate, store, 2), 3);
 }
 

@@ -60,6 +60,8 @@ void TimeSteps::start_run(DrivenFlow *flow, bool forces_change)
 {
   flow_ = flow;
   forces_change_ = forces_change;
+  const std::string before = std::exchange(acting_, what_acts());
+  forces_differ_ = !before.empty() && acting_ != before;
   first_step_ = step();
   rejected_ = failed_ = 0;
   last_failure_.clear();
@@ -68,6 +70,19 @@ void TimeSteps::start_run(DrivenFlow *flow, bool forces_change)
   const bool changed = update->dt != last_dt_ && !restarted_;    // by the user
   if (next_dt_ == 0 || changed) next_dt_ = update->dt;
   next_dt_ = std::min(next_dt_, control_.largest);
+}
+
+/* ----------------------------------------------------------------------
+   names of all that may exert forces
+------------------------------------------------------------------------- */
+
+std::string TimeSteps::what_acts() const
+{
+  std::string names;
+  for (const char *style : {force->pair_style, force->bond_style, force->angle_style})
+    if (style) names += std::string(style) + ' ';
+  for (const Fix *fix : modify->get_fix_list()) names += fmt::format("{} {} ", fix->id, fix->style);
+  return names;
 }
 
 void TimeSteps::atoms_migrated()
@@ -140,7 +155,7 @@ void TimeSteps::compare_velocities()
   doubts_velocities_ = false;
   if (same) markers_.store(V_, atom->v);
   flow_->release_walls(same);
-  integrator_->start_run(flow_->smallest_spacing(), same);
+  integrator_->start_run(flow_->smallest_spacing(), same, forces_differ_);
 }
 
 bool TimeSteps::are_velocities_same()

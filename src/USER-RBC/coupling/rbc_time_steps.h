@@ -78,6 +78,8 @@ class TimeSteps : protected Pointers {
   int tries_ = 0;                     ///< of this step
   std::vector<Flaw> seen_;            ///< in these
   bool forces_change_ = false;
+  std::string acting_;            ///< what acts on the markers in this run
+  bool forces_differ_ = false;    ///< from those of the run before
 
   // Of the present step, three numbers for each marker here: positions and velocities at its start
   // and at its end, and work space.
@@ -92,6 +94,7 @@ class TimeSteps : protected Pointers {
   rbc::StepStart start() const { return {X_, V_, update_dt(), last_dt_, step()}; }
   double update_dt() const;
   bigint step() const;
+  std::string what_acts() const;
   void start_velocities();
   void show_velocities();
   void compare_velocities();

@@ -61,7 +61,8 @@ class Integrator {
   /// At the start of a run, once velocities are known. `length` is one over which velocities vary,
   /// for finite differences. `continues`: the points are where the last step left them and move
   /// with the velocities that it left, so that what was known of them is likely to hold.
-  virtual void start_run(double /*length*/, bool /*continues*/) {}
+  /// `forces_differ`: other forces act on them than in the run before.
+  virtual void start_run(double /*length*/, bool /*continues*/, bool /*forces_differ*/) {}
 
   /// Call after points migrated between ranks and at the start of a run. `points`: number of points
   /// that this rank holds now. `store` has moved with them.

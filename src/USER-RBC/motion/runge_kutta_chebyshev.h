@@ -18,9 +18,9 @@ class RungeKuttaChebyshev : public Integrator {
   double largest_growth() const override;
   int kept_vectors() const override { return past_steps() + (automatic_ ? 1 : 0); }
   bool counts_steps() const override { return past_steps() > 0; }
-  void start_run(double length, bool continues) override
+  void start_run(double length, bool continues, bool forces_differ) override
   {
-    stability_.start_run(length, continues);
+    stability_.start_run(length, continues, forces_differ);
   }
   void points_migrated(const Motion &motion, std::size_t points, const PointStore &store) override;
   bool has_grown() const override { return grown_; }

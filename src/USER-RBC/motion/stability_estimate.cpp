@@ -47,11 +47,11 @@ void guess(const Motion &motion, Numbers &mode)
 
 }    // namespace
 
-void StabilityEstimate::start_run(double length, bool continues)
+void StabilityEstimate::start_run(double length, bool continues, bool forces_differ)
 {
   length_ = length;
-  doubted_ = continues && interval_ > 0;
-  if (doubted_) return;
+  doubted_ = forces_differ;
+  if (continues && interval_ > 0) return;
   radius_step_ = estimated_step_ = -1;
   interval_ = SHORTEST_INTERVAL;
   raw_radius_ = least_ = risen_ = 0;

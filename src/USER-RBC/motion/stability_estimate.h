@@ -16,9 +16,10 @@ namespace rbc {
 class StabilityEstimate {
  public:
   /// At the start of a run; points are displaced by a small part of `length`. Where a run
-  /// `continues` another the estimate in use stays, unless the first step finds a radius that is not
-  /// bearable: what acts on the points may have become stiffer in between.
-  void start_run(double length, bool continues);
+  /// `continues` another the estimate in use stays, so that a run in pieces is that of one piece.
+  /// Where forces differ from those of the run before, the first step makes it anew if it finds a
+  /// radius that is not bearable.
+  void start_run(double length, bool continues, bool forces_differ);
 
   /// The radius for a step; estimates it where it is due. `bearable`: that up to which a step is
   /// stable which is chosen for last(). Throws StepFailure if the radius is not a number.
