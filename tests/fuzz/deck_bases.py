@@ -114,7 +114,8 @@ def stl_text(triangles):
 
 
 def stl_binary(triangles):
-    records = [struct.pack("<12fH", 0, 0, 0, *(x for corner in triangle for x in corner), 0)
+    largest = 3e38    # of the numbers in the file
+    records = [struct.pack("<12fH", 0, 0, 0, *(max(-largest, min(x, largest)) for corner in triangle for x in corner), 0)
                for triangle in triangles]
     return b"vessel".ljust(80) + struct.pack("<I", len(triangles)) + b"".join(records)
 

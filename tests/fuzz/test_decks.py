@@ -48,6 +48,12 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(first.files, again.files)
         self.assertNotEqual(first.files, other.files)
 
+    def test_decks_are_changed_again(self):
+        """Among these is a mesh with a damaged triangle."""
+        originals = decks.bases()
+        for number in range(100):
+            self.assertTrue(decks.Deck(originals, 29, number).changes)
+
 
 if __name__ == "__main__":
     unittest.main()
