@@ -93,7 +93,7 @@ def readme_scene(shape, dx, kernel, hematocrit, rate, length, lines=""):
     speed = rate * 1e-6 * GAP / 2
     for pattern, new in (
             (r"potentials/rbc_642", f"{example_study.POTENTIALS}/{shape}"), (r"dx 0\.5", f"dx {dx}"),
-            (r"kernel peskin4", f"kernel {kernel}"), (r"zlo -0\.0012", f"zlo -{speed}"), (r"zhi 0\.0012", f"zhi {speed}"),
+            (r"rbc/ib flow .*", f"rbc/ib flow kernel {kernel}"), (r"zlo -0\.0012", f"zlo -{speed}"), (r"zhi 0\.0012", f"zhi {speed}"),
             (r"block 0 24 0 24 0 24", f"block 0 {length} 0 {length} 0 {GAP}"),
             (r"number 27 (.*) overlap 0\.5", rf"hematocrit {hematocrit} \1 overlap 0.1"),
             (r"rbc/vtk 250", "rbc/vtk 1000000"), (r"timestep +200", f"timestep {min(0.02 / (rate * 1e-6), 1000)}"),
