@@ -6,8 +6,8 @@
 
 namespace fluid {
 
-/// How much less than they should do sheets of markers slide past each other where the gap between
-/// them is narrower than the cells of the grid.
+/// Tells by how much sheets of markers slide too little past each other where the gap between them
+/// is narrower than the cells of the grid.
 ///
 /// Two parallel sheets a gap g apart that bear opposite tangential tractions t slide by t g /
 /// viscosity: the fluid between them shears evenly. On the grid both spread t over the cells around

@@ -53,7 +53,7 @@ double surface_offset(KernelKind kernel);
 /// second differences.
 ///
 /// Kernels blur the flow twice. C_2 undoes this where the flow is smooth: it is the variance of the
-/// kernel's weights less what the differences of the grid are off by. At a sheet with a tangential
+/// kernel's weights. At a sheet with a tangential
 /// traction the flow has a kink, which is rounded off: interpolated alone, u lags behind by
 /// surface_offset times the traction over the viscosity, and the sheet acts that much thicker on
 /// both sides. With C_4 this vanishes, and what is left of the error is of third order. A local

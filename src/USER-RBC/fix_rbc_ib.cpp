@@ -79,6 +79,7 @@ void FixRBCIB::build(const MotionSettings &settings)
 {
   sheets = settings.sheets;
   iterates = settings.iterates;
+  asks_gaps = settings.asks_gaps;
   courant = settings.markers.courant;
   most_solves = settings.max_solves;
   integrator_code = settings.integrator->code;
@@ -190,6 +191,15 @@ void FixRBCIB::start_gaps(const std::vector<CellMembranes *> &membranes)
 {
   if (gaps && has_sheets()) gaps->start_run(*flow, membranes, find_cell_contact(force));
   markers->set_gap_slip(slides_in_gaps() ? gaps.get() : nullptr);
+  if (!asks_gaps || slides_in_gaps()) return;
+  if (!has_sheets())
+    error->all(FLERR, "Fix rbc/ib {} gaps yes needs a fix rbc/membrane, whose surfaces can slide",
+               id);
+  if (comm->me == 0)
+    error->warning(FLERR,
+                   "Fix rbc/ib {} gaps yes has no effect: there is no pair_style rbc/jkr, which "
+                   "knows which surfaces are near, and there are no plates",
+                   id);
 }
 
 bool FixRBCIB::slides_in_gaps() const

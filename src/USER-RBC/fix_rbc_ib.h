@@ -63,6 +63,7 @@ class FixRBCIB : public Fix, public FluidClient, public RunEnd, public ContactRe
   int most_solves = 0, integrator_code = 0;
   bool takes_default = false;    // no integrator was named
   bool iterates = false;         // keywords of iterations were given
+  bool asks_gaps = false;        // gaps yes was given
 
   DrivenFlow *flow = nullptr;
   std::unique_ptr<ImmersedMarkers> markers;

@@ -197,7 +197,7 @@ double PairRBCJKR::init_one(int i, int j)
   const int n = atom->ntypes + 1;
   const TypePair pair = make_type_pair(i, j);
   type_pairs[std::size_t(i) * n + j] = type_pairs[std::size_t(j) * n + i] = pair;
-  if (!pair.law) return widest_gap > 0 ? ghost_reach() : 0;
+  if (!pair.law) return widest_gap > 0 && !has_law() ? ghost_reach() : 0;
   if (pair.range() > cutoff)
     error->all(FLERR,
                "Pair rbc/jkr cutoff {} must be at least {:.6g}, where surfaces of types {} {} lose "
@@ -212,6 +212,14 @@ double PairRBCJKR::init_one(int i, int j)
     neighbor_calls = -1;    // fix adapt may have raised it
   }
   return ghost_reach();
+}
+
+bool PairRBCJKR::has_law() const
+{
+  for (int i = 1; i <= atom->ntypes; ++i)
+    for (int j = i; j <= atom->ntypes; ++j)
+      if (setflag[i][j] && coefficients->touch(i, j)) return true;
+  return false;
 }
 
 double PairRBCJKR::ghost_reach() const
@@ -266,6 +274,7 @@ bool PairRBCJKR::neighbors_changed()
 void PairRBCJKR::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
+  adhered_area = 0;
   if (reach() == 0) return;    // no types touch
   finding.start();
   if (neighbors_changed()) surfaces->build(reach(), slack());
@@ -287,7 +296,6 @@ void PairRBCJKR::add_forces(const std::vector<rbc::VertexContact> &contacts)
 {
   const bool returned = force->newton;
   if (!returned) reactions.assign(3 * std::size_t(atom->nlocal + atom->nghost), 0.0);
-  adhered_area = 0;
   for (const auto &contact : contacts) {
     const int i = contact.point;
     const TypePair &pair = types(atom->type[i], atom->type[contact.corner[0]]);
@@ -343,7 +351,7 @@ void PairRBCJKR::tally(int i, double energy, double size, const double *normal)
 
 int PairRBCJKR::pack_reverse_comm(int n, int first, double *buf)
 {
-  std::copy_n(&reactions[3 * std::size_t(first)], 3 * std::size_t(n), buf);
+  std::copy_n(reactions.data() + 3 * std::size_t(first), 3 * std::size_t(n), buf);
   return 3 * n;
 }
 

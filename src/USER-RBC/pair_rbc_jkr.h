@@ -42,6 +42,7 @@ class PairRBCJKR : public Pair, public StepPart, public CellContact {
 
   double contact_range(int, int) const override;
   const std::vector<rbc::VertexContact> &near_contacts() const override;
+  double own_gap() const override { return own_cells ? cutoff : 0; }
 
   void report_to(const std::shared_ptr<CollectiveStop> &) override;
   std::vector<Section> sections() override
@@ -82,6 +83,7 @@ class PairRBCJKR : public Pair, public StepPart, public CellContact {
   double slack() const;
   double reach() const;
   double ghost_reach() const;
+  bool has_law() const;
   void check_cells();
   bool neighbors_changed();
   void add_forces(const std::vector<rbc::VertexContact> &);

@@ -1,7 +1,9 @@
 #include "cells/rbc_cell_contact.h"
 
 #include "fix.h"
+#include "force.h"
 #include "modify.h"
+#include "pair.h"
 #include "support/rbc_pair_parts.h"
 
 #include <algorithm>
@@ -10,8 +12,11 @@ using namespace LAMMPS_NS;
 
 CellContact *LAMMPS_NS::find_cell_contact(Force *force)
 {
-  for (StepPart *part : pair_step_parts(force))
-    if (auto *const contact = dynamic_cast<CellContact *>(part)) return contact;
+  for (StepPart *part : pair_step_parts(force)) {
+    const auto *const pair = dynamic_cast<Pair *>(part);
+    auto *const contact = dynamic_cast<CellContact *>(part);
+    if (contact && pair && pair->compute_flag && force->pair->compute_flag) return contact;
+  }
   return nullptr;
 }
 

@@ -18,6 +18,10 @@ class CellContact {
   /// the largest range, and as the readers of contacts want. Corners may be ghosts.
   virtual const std::vector<rbc::VertexContact> &near_contacts() const = 0;
 
+  /// Gap up to which a cell is near itself only where its surface faces itself: a part of the
+  /// surface around each vertex is not seen. 0 if cells do not see themselves.
+  virtual double own_gap() const = 0;
+
  protected:
   ~CellContact() = default;
 };
@@ -32,7 +36,8 @@ class ContactReader {
   ~ContactReader() = default;
 };
 
-/// The first pair style that is a CellContact, one of pair_style hybrid included, or null.
+/// The first pair style that is a CellContact and is computed in each step, one of pair_style
+/// hybrid included, or null.
 CellContact *find_cell_contact(class Force *force);
 
 /// The widest gap that any fix wants, or 0.

@@ -111,6 +111,7 @@ void GapSlip::slide_near_surfaces()
     const bool own = atom->molecule[contact.point] == atom->molecule[contact.corner[0]];
     const double gap = (own ? std::abs(contact.gap) : contact.gap) / spacing_;
     if (gap <= 0 || gap >= missing_.range()) continue;
+    if (own && gap * spacing_ >= contact_->own_gap()) continue;
     slide(contact, missing_.slide(gap) * spacing_);
   }
 }
@@ -150,18 +151,18 @@ void GapSlip::slide_along_plates(const std::vector<int> &members, const double *
 int GapSlip::pack_tractions(int n, const int *list, double *buf) const
 {
   for (int m = 0; m < n; ++m)
-    std::copy_n(&traction_[3 * std::size_t(list[m])], 3, buf + 3 * std::size_t(m));
+    std::copy_n(traction_.data() + 3 * std::size_t(list[m]), 3, buf + 3 * std::size_t(m));
   return 3 * n;
 }
 
 void GapSlip::unpack_tractions(int n, int first, const double *buf)
 {
-  std::copy_n(buf, 3 * std::size_t(n), &traction_[3 * std::size_t(first)]);
+  std::copy_n(buf, 3 * std::size_t(n), traction_.data() + 3 * std::size_t(first));
 }
 
 int GapSlip::pack_slip(int n, int first, double *buf) const
 {
-  std::copy_n(&slip_[3 * std::size_t(first)], 3 * std::size_t(n), buf);
+  std::copy_n(slip_.data() + 3 * std::size_t(first), 3 * std::size_t(n), buf);
   return 3 * n;
 }
 

@@ -7,7 +7,7 @@
 #include "support/rbc_step_part.h"
 
 #include <array>
-#include <string>
+#include <memory>
 #include <vector>
 
 namespace LAMMPS_NS {

@@ -1,6 +1,7 @@
 #include "coupling/rbc_time_steps.h"
 
 #include "atom.h"
+#include "cells/rbc_cell_membranes.h"
 #include "error.h"
 #include "fix.h"
 #include "force.h"
@@ -73,15 +74,21 @@ void TimeSteps::start_run(DrivenFlow *flow, bool forces_change)
 }
 
 /* ----------------------------------------------------------------------
-   names of all that may exert forces
+   names of all that may exert forces, and how stiff membranes are; pair coefficients are not in it
 ------------------------------------------------------------------------- */
 
 std::string TimeSteps::what_acts() const
 {
   std::string names;
-  for (const char *style : {force->pair_style, force->bond_style, force->angle_style})
+  for (const char *style : {force->pair_style, force->bond_style, force->angle_style,
+                            force->dihedral_style, force->improper_style})
     if (style) names += std::string(style) + ' ';
-  for (const Fix *fix : modify->get_fix_list()) names += fmt::format("{} {} ", fix->id, fix->style);
+  for (Fix *fix : modify->get_fix_list())
+    if (modify->get_fix_mask(fix) & (FixConst::PRE_FORCE | FixConst::POST_FORCE))
+      names += fmt::format("{} {} ", fix->id, fix->style);
+  for (const CellMembranes *cells : all_cell_membranes(lmp))
+    names += fmt::format("{} {} {} ", cells->shear_modulus(), cells->parameters().bending,
+                         cells->parameters().local_area);
   return names;
 }
 
