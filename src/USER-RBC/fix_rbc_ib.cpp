@@ -12,7 +12,6 @@
 #include "force.h"
 #include "group.h"
 #include "modify.h"
-#include "neighbor.h"
 #include "support/rbc_out_of_memory.h"
 #include "support/rbc_pair_parts.h"
 #include "update.h"
@@ -239,102 +238,10 @@ void FixRBCIB::unpack_reverse_comm(int n, int *list, double *buf)
 
 /* ---------------------------------------------------------------------- */
 
-void FixRBCIB::check_run() const
-{
-  if (utils::strmatch(update->integrate_style, "^respa"))
-    error->all(FLERR, "Fix rbc/ib cannot be used with run_style respa");
-  if (update->whichflag == 2) error->all(FLERR, "Fix rbc/ib cannot be used with minimize");
-}
-
-void FixRBCIB::check_inertia() const
-{
-  const bool inertia = flow->has_inertia();
-  if (inertia && !steps->integrator().allows_inertia()) {
-    std::string words;
-    for (const rbc::IntegratorKind &kind : rbc::integrator_kinds)
-      if (kind.make({})->allows_inertia())
-        words += (words.empty() ? "" : " or ") + std::string(kind.word);
-    error->all(FLERR,
-               "Fix rbc/ib {}: fix rbc/fluid {} has inertia, for which integrator must be {}", id,
-               fluid, words);
-  }
-  if (inertia && steps->adaptive())
-    error->all(FLERR, "Fix rbc/ib {} adapt needs fix rbc/fluid {} inertia none", id, fluid);
-  if (!masses) return;
-  if (!inertia)
-    error->all(FLERR,
-               "Fix rbc/ib {} scheme direct needs a fluid with inertia: fix rbc/fluid {} "
-               "inertia unsteady or convective",
-               id, fluid);
-  if (flow->flow().equations().scheme != fluid::Scheme::coupled)
-    error->all(FLERR, "Fix rbc/ib {} scheme direct needs fix rbc/fluid {} scheme coupled", id,
-               fluid);
-}
-
-/* ----------------------------------------------------------------------
-   whether fixes defined after this one add forces, which setup() does not see
-------------------------------------------------------------------------- */
-
-bool FixRBCIB::check_order() const
-{
-  bool before = true, late_forces = false;
-  for (Fix *fix : modify->get_fix_list()) {
-    if (fix == this) before = false;
-    if (before && steps->adaptive() && (modify->get_fix_mask(fix) & INITIAL_INTEGRATE) &&
-        !dynamic_cast<FixRBCFluid *>(fix))
-      error->all(
-          FLERR,
-          "Fix rbc/ib {} with adapt must be defined before fix {} {}, which moves atoms by the "
-          "timestep",
-          id, fix->style, fix->id);
-    if (!before && (modify->get_fix_mask(fix) & POST_FORCE)) late_forces = true;
-    if (!before && dynamic_cast<MembraneOwner *>(fix))
-      error->all(FLERR, "Fix rbc/ib {} must be defined after fix rbc/membrane {}", id, fix->id);
-  }
-  return late_forces;
-}
-
-/* ---------------------------------------------------------------------- */
-
 bool FixRBCIB::has_sheets() const
 {
   if (sheets != Sheets::WITH_MEMBRANES) return sheets == Sheets::YES;
   return !masses && !all_cell_membranes(lmp).empty();
-}
-
-/* ----------------------------------------------------------------------
-   keeping a cell's volume changes the velocities of all its vertices, and the viscosity of its
-   membrane depends on them
-------------------------------------------------------------------------- */
-
-void FixRBCIB::check_moves_all(const CellMembranes &cells) const
-{
-  int left_out = 0;
-  int moved = groupbit;    // or held
-  for (FluidClient *client : fluid_clients(modify))
-    if (client->wall_group()) moved |= client->wall_group()->groupbit();
-  for (int i = 0; i < atom->nlocal; ++i)
-    if ((atom->mask[i] & cells.groupbit()) && !(atom->mask[i] & moved)) left_out = 1;
-  MPI_Allreduce(MPI_IN_PLACE, &left_out, 1, MPI_INT, MPI_MAX, world);
-  if (left_out)
-    error->all(FLERR,
-               "Fix rbc/ib {} does not move all atoms of f{}, which keeps the volume of its cells "
-               "or has viscosity",
-               id, cells.style().substr(1));
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixRBCIB::check_apart(const WallGroup &wall) const
-{
-  int shared = 0;
-  for (int i = 0; i < atom->nlocal; ++i)
-    if ((atom->mask[i] & wall.groupbit()) && (atom->mask[i] & groupbit)) shared = 1;
-  MPI_Allreduce(MPI_IN_PLACE, &shared, 1, MPI_INT, MPI_MAX, world);
-  if (shared)
-    error->all(FLERR,
-               "Fix rbc/ib {} would move atoms of f{}: their groups must have no atoms in common",
-               id, wall.style().substr(1));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -475,30 +382,6 @@ void FixRBCIB::warn() const
   if (markers->viscosity().unconverged() > 0)
     error->warning(FLERR, "Fix rbc/ib {} reached its maxiter of {} in {} evaluations", id,
                    most_solves, markers->viscosity().unconverged());
-}
-
-/* ---------------------------------------------------------------------- */
-
-std::string FixRBCIB::remedies_for(const std::vector<Flaw> &seen)
-{
-  Situation now;
-  now.inertia = flow && flow->has_inertia();
-  now.chooses_stages = steps->integrator().can_retake();
-  now.adapts = steps->adaptive();
-  now.creases = now.limits_stretch = true;
-  std::size_t cells = 0;
-  for (const CellMembranes *membranes : all_cell_membranes(lmp)) {
-    now.membranes = true;
-    cells += membranes->local_cells().molecules().size();
-    now.creases = now.creases && membranes->parameters().crease.stiffness > 0;
-    now.limits_stretch = now.limits_stretch && membranes->parameters().stretch.stiffness > 0;
-  }
-  now.several_cells = cells > 1;
-  now.lacks_contact = now.several_cells && pair_step_parts(force).empty();
-  now.timestep = update->dt;
-  now.ghost_cutoff = comm->get_comm_cutoff();
-  now.skin = neighbor->skin;
-  return remedies(seen, now);
 }
 
 /* ---------------------------------------------------------------------- */
