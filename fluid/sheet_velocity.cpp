@@ -8,8 +8,8 @@ namespace fluid {
 
 namespace {
 
-/// Calls `add(result, at, row, plane, n)` for each row of cells of `box` and each component: n
-/// cells of two arrays with the same rows and planes.
+/// Calls `add(c, j, k, result, at, row, plane, n)` for each component c and each row (j, k) of
+/// `box`: n cells of two arrays. A neighbor in y is `row` numbers further, one in z `plane`.
 template <class Add>
 void for_each_line(const Box &box, const VectorField &from, const VectorField &to, Add add)
 {

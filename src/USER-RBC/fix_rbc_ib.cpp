@@ -183,7 +183,7 @@ void FixRBCIB::init()
 }
 
 /* ----------------------------------------------------------------------
-   points have no surfaces that could slide
+   Points have no surfaces that could slide.
 ------------------------------------------------------------------------- */
 
 void FixRBCIB::start_gaps(const std::vector<CellMembranes *> &membranes)
@@ -213,7 +213,7 @@ double FixRBCIB::widest_gap() const
 }
 
 /* ----------------------------------------------------------------------
-   numbers of ghosts, for the sliding of surfaces
+   Ghosts get the tractions of their owners, and return what they slip.
 ------------------------------------------------------------------------- */
 
 int FixRBCIB::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/, int * /*pbc*/)

@@ -52,7 +52,7 @@ void FixRBCIB::check_inertia() const
 }
 
 /* ----------------------------------------------------------------------
-   whether fixes defined after this one add forces, which setup() does not see
+   Tells whether fixes defined after this one add forces, which setup() does not see.
 ------------------------------------------------------------------------- */
 
 bool FixRBCIB::check_order() const
@@ -75,8 +75,8 @@ bool FixRBCIB::check_order() const
 }
 
 /* ----------------------------------------------------------------------
-   keeping a cell's volume changes the velocities of all its vertices, and the viscosity of its
-   membrane depends on them
+   Keeping a cell's volume changes the velocities of all its vertices, and the viscosity of its
+   membrane depends on them.
 ------------------------------------------------------------------------- */
 
 void FixRBCIB::check_moves_all(const CellMembranes &cells) const

@@ -11,7 +11,7 @@
 #include <cmath>
 
 using namespace LAMMPS_NS;
-using rbc::cross, rbc::dot, rbc::PlainVector;
+using rbc::dot, rbc::PlainVector;
 
 static PlainVector row(const double *rows, int i)
 {
@@ -35,13 +35,19 @@ static double mean_spacing(const DrivenFlow &flow)
 /* ---------------------------------------------------------------------- */
 
 GapSlip::GapSlip(LAMMPS *lmp, Fix *owner, fluid::KernelKind kernel) :
-    Pointers(lmp), owner_(owner), missing_(kernel)
+    Pointers(lmp), owner_(owner), kernel_(kernel)
 {
 }
 
-double GapSlip::widest_gap(const DrivenFlow &flow) const
+const fluid::GapMobility &GapSlip::missing()
 {
-  return missing_.range() * mean_spacing(flow);
+  if (!missing_) missing_ = std::make_unique<fluid::GapMobility>(kernel_);
+  return *missing_;
+}
+
+double GapSlip::widest_gap(const DrivenFlow &flow)
+{
+  return missing().range() * mean_spacing(flow);
 }
 
 void GapSlip::start_run(const DrivenFlow &flow, const std::vector<CellMembranes *> &membranes,
@@ -58,6 +64,7 @@ void GapSlip::start_run(const DrivenFlow &flow, const std::vector<CellMembranes 
   };
   plates_[0] = {holds(grid.plate_conditions.lower), domain->boxlo[2]};
   plates_[1] = {holds(grid.plate_conditions.upper), domain->boxhi[2]};
+  if (acts()) missing();
 }
 
 void GapSlip::find_areas()
@@ -110,9 +117,9 @@ void GapSlip::slide_near_surfaces()
   for (const auto &contact : contact_->near_contacts()) {
     const bool own = atom->molecule[contact.point] == atom->molecule[contact.corner[0]];
     const double gap = (own ? std::abs(contact.gap) : contact.gap) / spacing_;
-    if (gap <= 0 || gap >= missing_.range()) continue;
+    if (gap <= 0 || gap >= missing_->range()) continue;
     if (own && gap * spacing_ >= contact_->own_gap()) continue;
-    slide(contact, missing_.slide(gap) * spacing_);
+    slide(contact, missing_->slide(gap) * spacing_);
   }
 }
 
@@ -134,11 +141,11 @@ void GapSlip::slide_along_plates(const std::vector<int> &members, const double *
 {
   for (const Plate &plate : plates_) {
     if (!plate.holds) continue;
-    const double range = missing_.plate_range() * height_;
+    const double range = missing_->plate_range() * height_;
     for (int i : members) {
       const double gap = std::abs(atom->x[i][2] - plate.z);
       if (gap >= range || area_[i] == 0) continue;
-      const double missing = missing_.slide_at_plate(gap / height_) * height_;
+      const double missing = missing_->slide_at_plate(gap / height_) * height_;
       const double mobility = factor * missing / (viscosity_ * area_[i]);
       for (int d = 0; d < 2; ++d)
         velocity[3 * std::size_t(i) + d] += mobility * force[3 * std::size_t(i) + d];

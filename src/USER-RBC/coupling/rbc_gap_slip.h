@@ -33,7 +33,7 @@ class GapSlip : public StepPart, protected Pointers {
   GapSlip(LAMMPS *lmp, class Fix *owner, fluid::KernelKind kernel);
 
   /// Widest gap for which something is missing, for this spacing of the grid.
-  double widest_gap(const DrivenFlow &flow) const;
+  double widest_gap(const DrivenFlow &flow);
 
   /// At the start of a run. `contact` may be null: then plates alone count.
   void start_run(const DrivenFlow &flow, const std::vector<CellMembranes *> &membranes,
@@ -70,7 +70,8 @@ class GapSlip : public StepPart, protected Pointers {
   };
 
   Fix *owner_;
-  fluid::GapMobility missing_;
+  fluid::KernelKind kernel_;
+  std::unique_ptr<const fluid::GapMobility> missing_;    ///< made where it is first needed
   const CellContact *contact_ = nullptr;
   std::vector<CellMembranes *> membranes_;
   std::array<Plate, 2> plates_;
@@ -81,6 +82,7 @@ class GapSlip : public StepPart, protected Pointers {
   std::vector<double> slip_;        ///< times area, of all atoms here
   rbc::Stopwatch stopwatch_;
 
+  const fluid::GapMobility &missing();
   void set_tractions(const std::vector<int> &members, const double *force, double factor);
   void slide_near_surfaces();
   void slide(const rbc::VertexContact &contact, double missing);

@@ -180,7 +180,7 @@ void SceneTable::find_repelling()
   }
 }
 
-/// Of the nearest vertex of a cell.
+/// Distance of the vertex that is nearest to a plate. Collective.
 double SceneTable::plate_distance() const
 {
   int of_cells = 0;

@@ -74,7 +74,8 @@ void TimeSteps::start_run(DrivenFlow *flow, bool forces_change)
 }
 
 /* ----------------------------------------------------------------------
-   names of all that may exert forces, and how stiff membranes are; pair coefficients are not in it
+   Returns the names of all that may exert forces, and how stiff membranes are. Pair coefficients
+   are left out.
 ------------------------------------------------------------------------- */
 
 std::string TimeSteps::what_acts() const
@@ -295,8 +296,8 @@ void TimeSteps::note_failure(const std::string &what, Flaw flaw)
 
 /* ----------------------------------------------------------------------
    Checks the positions at the end of the step. LAMMPS computes the forces there, too late to take
-   the step again. So they are computed here as well where something is likely to be wrong: after
-   only two stages nothing was checked behind a quarter of the step.
+   the step again. So they are computed here as well where something is likely to be wrong. With
+   two stages the last evaluation is at a quarter of the step, and what comes later is unchecked.
 ------------------------------------------------------------------------- */
 
 void TimeSteps::check_result()
