@@ -1,6 +1,7 @@
 #include "pair_rbc_jkr.h"
 
 #include "atom.h"
+#include "cells/rbc_boundary_contact.h"
 #include "cells/rbc_contact_coefficients.h"
 #include "cells/rbc_near_surfaces.h"
 #include "comm.h"
@@ -9,7 +10,6 @@
 #include "memory.h"
 #include "modify.h"
 #include "neighbor.h"
-#include "support/rbc_arguments.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,8 @@ static constexpr double OWN_PATCH = 2.5;
 
 PairRBCJKR::PairRBCJKR(LAMMPS *lmp) :
     Pair(lmp), coefficients(std::make_unique<ContactCoefficients>(lmp)),
-    surfaces(std::make_unique<NearSurfaces>(lmp, "Pair rbc/jkr"))
+    surfaces(std::make_unique<NearSurfaces>(lmp, "Pair rbc/jkr")),
+    boundaries(std::make_unique<BoundaryContact>(lmp, "Pair rbc/jkr"))
 {
   writedata = 0;
   reinitflag = 1;
@@ -69,10 +70,7 @@ void PairRBCJKR::report_to(const std::shared_ptr<CollectiveStop> &stop)
 
 void PairRBCJKR::settings(int narg, char **arg)
 {
-  Arguments args(lmp, "pair_style rbc/jkr", narg, arg);
-  cutoff = args.positive("cutoff");
-  own_cells = false;
-  args.read({{"self", [&] { own_cells = args.logical(); }}});
+  given = read_contact_settings(lmp, narg, arg);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -103,12 +101,14 @@ void PairRBCJKR::init_style()
   if (offset_flag || tail_flag)
     error->all(FLERR, "Pair rbc/jkr does not know pair_modify shift or tail: its energy is zero "
                       "where contact is lost");
-  surfaces->see_own_cells(own_cells ? OWN_PATCH * cutoff : 0);
+  init_lengths();
+  surfaces->see_own_cells(given.self ? OWN_PATCH * cutoff : 0);
   surfaces->init();
   widest_gap = widest_gap_wanted(modify);
   check_cells();
   // pair_style hybrid may have taken pairs away
   std::fill(type_pairs.begin(), type_pairs.end(), TypePair());
+  init_boundaries();
   range = 0;
   neighbor_calls = neighbor_step = -1;
 }
@@ -146,7 +146,7 @@ void PairRBCJKR::check_cells()
 PairRBCJKR::TypePair PairRBCJKR::make_type_pair(int i, int j) const
 {
   TypePair pair;
-  pair.law = coefficients->law(i, j);
+  pair.law = coefficients->law(i, j, unit);
   if (!pair.law) return pair;
   std::visit(
       [&pair](const auto &law) {
@@ -197,12 +197,13 @@ double PairRBCJKR::init_one(int i, int j)
   const int n = atom->ntypes + 1;
   const TypePair pair = make_type_pair(i, j);
   type_pairs[std::size_t(i) * n + j] = type_pairs[std::size_t(j) * n + i] = pair;
+  if (i == j) boundaries->set_law(i, pair.law);
   if (!pair.law) return widest_gap > 0 && !has_law() ? ghost_reach() : 0;
   if (pair.range() > cutoff)
     error->all(FLERR,
                "Pair rbc/jkr cutoff {} must be at least {:.6g}, where surfaces of types {} {} lose "
                "contact",
-               cutoff, pair.range(), i, j);
+               given.cutoff, pair.range() / unit, i, j);
   if (pair.equilibrium >= pair.tip_radius)
     error->all(FLERR, "Pair rbc/jkr: adhered surfaces of types {} {} would overlap by {:.6g}; {}",
                i, j, pair.equilibrium - pair.tip_radius,
@@ -239,7 +240,8 @@ const std::vector<rbc::VertexContact> &PairRBCJKR::near_contacts() const
 void PairRBCJKR::setup()
 {
   if (comm->me != 0) return;
-  if (own_cells)
+  log_boundaries();
+  if (given.self)
     utils::logmesg(lmp,
                    "Pair rbc/jkr: cells touch themselves, too, further than {:.6g} along their "
                    "surface\n",
@@ -277,12 +279,16 @@ void PairRBCJKR::compute(int eflag, int vflag)
   adhered_area = 0;
   if (reach() == 0) return;    // no types touch
   finding.start();
-  if (neighbors_changed()) surfaces->build(reach(), slack());
+  if (neighbors_changed()) {
+    surfaces->build(reach(), slack());
+    if (given.has_boundaries()) boundaries->build(*surfaces, reach(), slack());
+  }
   const auto &contacts = surfaces->contacts(reach());
   finding.stop();
 
   interacting.start();
   add_forces(contacts);
+  if (given.has_boundaries()) add_forces_of_boundaries();
   interacting.stop();
 }
 
@@ -417,26 +423,22 @@ double PairRBCJKR::read_number(FILE *fp)
   return number;
 }
 
-/* ----------------------------------------------------------------------
-   the sign tells whether cells touch themselves, so that files from before that can be read
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 void PairRBCJKR::write_restart_settings(FILE *fp)
 {
-  const double number = own_cells ? -cutoff : cutoff;
-  fwrite(&number, sizeof(double), 1, fp);
+  write_contact_settings(fp, given);
 }
 
 void PairRBCJKR::read_restart_settings(FILE *fp)
 {
-  const double number = read_number(fp);
-  cutoff = std::abs(number);
-  own_cells = number < 0;
+  given = read_contact_settings(lmp, fp);
 }
 
 /* ---------------------------------------------------------------------- */
 
 double PairRBCJKR::memory_usage()
 {
-  return Pair::memory_usage() + surfaces->bytes() + reactions.capacity() * sizeof(double);
+  return Pair::memory_usage() + surfaces->bytes() + boundaries->bytes() +
+         reactions.capacity() * sizeof(double);
 }

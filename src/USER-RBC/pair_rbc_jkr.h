@@ -8,6 +8,7 @@ PairStyle(rbc/jkr,PairRBCJKR);
 #define LMP_PAIR_RBC_JKR_H
 
 #include "cells/rbc_cell_contact.h"
+#include "cells/rbc_contact_settings.h"
 #include "contact/contact_laws.h"
 #include "contact/near_triangles.h"
 #include "pair.h"
@@ -42,7 +43,8 @@ class PairRBCJKR : public Pair, public StepPart, public CellContact {
 
   double contact_range(int, int) const override;
   const std::vector<rbc::VertexContact> &near_contacts() const override;
-  double own_gap() const override { return own_cells ? cutoff : 0; }
+  double own_gap() const override { return given.self ? cutoff : 0; }
+  std::string repelling_boundaries(int) const override;
 
   void report_to(const std::shared_ptr<CollectiveStop> &) override;
   std::vector<Section> sections() override
@@ -62,11 +64,13 @@ class PairRBCJKR : public Pair, public StepPart, public CellContact {
     double range() const { return tip_radius - detachment; }
   };
 
-  double cutoff = 0;
-  bool own_cells = false;    // cells touch themselves, too
+  ContactSettings given;
+  double unit = 1;      // of the lengths that are given
+  double cutoff = 0;    // in distance units
 
   std::unique_ptr<class ContactCoefficients> coefficients;
   std::unique_ptr<class NearSurfaces> surfaces;
+  std::unique_ptr<class BoundaryContact> boundaries;
   std::vector<TypePair> type_pairs;
   double range = 0;         // largest of them
   double widest_gap = 0;    // up to which fixes want to know of surfaces
@@ -77,6 +81,9 @@ class PairRBCJKR : public Pair, public StepPart, public CellContact {
   std::vector<double> reactions;    // on all atoms, if forces on ghosts are not returned
 
   void allocate();
+  void init_lengths();
+  void init_boundaries();
+  void log_boundaries() const;
   TypePair make_type_pair(int, int) const;
   const TypePair &types(int itype, int jtype) const;
   double read_number(FILE *);
@@ -87,6 +94,7 @@ class PairRBCJKR : public Pair, public StepPart, public CellContact {
   void check_cells();
   bool neighbors_changed();
   void add_forces(const std::vector<rbc::VertexContact> &);
+  void add_forces_of_boundaries();
   void tally(int, double, double, const double *);
 };
 

@@ -29,7 +29,9 @@ BOUNDARIES = {"plates": {}, "walls": dict(WALL, wall="fix vessel wall rbc/wall f
 MEMBRANES = {"elastic": "volume yes", "viscous": "volume yes viscosity 0.5",
              "thinning": "volume yes viscosity 0.5 thinning 0.1 0.001"}
 CONTACTS = {"no contact": "", "contact": "pair_style rbc/jkr 0.6\npair_coeff * * none\n"
-            "pair_coeff 1 1 adhesive 0.0628 1.0e-3 0.3"}
+            "pair_coeff 1 1 adhesive 0.0628 1.0e-3 0.3",
+            "boundaries": "region between block INF INF INF INF 0 12\npair_style rbc/jkr 2.6 units dx BOUNDARIES\n"
+            "pair_coeff * * none\npair_coeff 1 1 repulsive 0.02 2.6"}
 CONTROLS = {"driven": "body 1e-5 0 0", "mean x": "mean x 0.001"}
 INERTIA = ("unsteady", "convective", "unsteady scheme projection", "direct")
 
@@ -41,7 +43,8 @@ FEW = [("euler", "plates", "elastic", "contact", "mean x"), ("ab2", "walls", "vi
        ("midpoint", "walls", "thinning", "contact", "driven"), ("rkc auto", "walls", "elastic", "contact", "mean x"),
        ("rkc adapt", "plates", "viscous", "contact", "mean x"), ("rkc", "moving walls", "elastic", "contact", "driven"),
        ("adapt order 3", "moving walls", "elastic", "no contact", "driven"),
-       ("order 3", "plates", "thinning", "contact", "driven"), ("midpoint", "direct", "contact")]
+       ("order 3", "plates", "thinning", "contact", "driven"), ("midpoint", "direct", "contact"),
+       ("rkc auto", "plates", "elastic", "boundaries", "driven"), ("midpoint", "walls", "elastic", "boundaries", "mean x")]
 
 
 def lines(combination):
@@ -68,7 +71,7 @@ def lines(combination):
         neighbor="neighbor 1.0 bin\nneigh_modify every 1 delay 0 check no" +
         (" exclude group wall all" if boundary else "") + "\ncomm_modify cutoff 5.5\natom_modify sort 0 0.0",
         membrane="fix mem cells rbc/membrane rbc mooney-rivlin 0.257 0.0257 0.01 bending 2.0e-4 " + membrane,
-        contact=contact,
+        contact=contact.replace("BOUNDARIES", "walls between" if boundary else "plates yes"),
         fluid=f"fix flow all rbc/fluid dx 1.0 viscosity 1.5 density 1.025 inertia"
               f" {'unsteady' if direct else inertia} {plates} {control}",
         ib=f"fix ib cells rbc/ib flow integrator {INTEGRATORS[integrator]}" + (" scheme direct" if direct else ""),

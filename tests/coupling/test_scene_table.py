@@ -81,6 +81,21 @@ class Numbers(unittest.TestCase):
         self.assertEqual(warnings(results[0]), [])
         self.assertIn("cells are repelled by wall/harmonic plates", results[0].printed)
 
+    def test_what_repels_cells(self):
+        region = "region middle block INF INF INF INF 1 11 units box\n"
+        styles = {"plates yes": "pair rbc/jkr plates", "walls middle": "pair rbc/jkr walls middle",
+                  "plates yes walls middle": "pair rbc/jkr plates, walls middle", "plates no": ""}
+        results = in_parallel(lambda words: run(scene(**TWO, before=region + CONTACT.format(1.3).replace(
+            "1.3\n", f"1.3 {words}\n"))), [(words,) for words in styles])
+        for repelling, result in zip(styles.values(), results):
+            with self.subTest(repelling):
+                if repelling:
+                    self.assertIn(f"; cells are repelled by {repelling}\n", result.printed)
+                    self.assertEqual(warnings(result), [])
+                else:
+                    self.assertIn("no fix wall repels cells from them", result.printed)
+                    self.assertRegex(warnings(result)[0], "nothing repels the 2 cells from the plates; use plates yes")
+
     def test_fastest_wall(self):
         ball = "region ball sphere 2 2 2 1.5\nrbc/surface ball type 2 spacing 0.9 mass 1\n" \
                "group ball type 2\ngroup cells type 1"

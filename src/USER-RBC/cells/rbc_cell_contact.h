@@ -3,6 +3,7 @@
 
 #include "contact/near_triangles.h"
 
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -21,6 +22,9 @@ class CellContact {
   /// Gap up to which a cell is near itself only where its surface faces itself: a part of the
   /// surface around each vertex is not seen. 0 if cells do not see themselves.
   virtual double own_gap() const = 0;
+
+  /// What else repels cells of an atom type, in words: plates, walls. Empty if nothing does.
+  virtual std::string repelling_boundaries(int itype) const = 0;
 
  protected:
   ~CellContact() = default;

@@ -55,10 +55,10 @@ ContactCoefficients::Choice ContactCoefficients::read(int narg, char **arg, int 
 
   Choice choice{law, std::vector<double>(names.size())};
   Arguments args(lmp, "pair_coeff rbc/jkr", narg, arg, first + 1);
-  for (const auto &[name, bound] : needed) {
-    const std::string what = word + ' ' + name;
-    choice.parameters[place_of(name)] =
-        bound == rbc::Bound::positive ? args.positive(what) : args.not_negative(what);
+  for (const auto &parameter : needed) {
+    const std::string what = word + ' ' + parameter.name;
+    choice.parameters[place_of(parameter.name)] =
+        parameter.bound == rbc::Bound::positive ? args.positive(what) : args.not_negative(what);
   }
   return choice;
 }
@@ -72,13 +72,14 @@ void ContactCoefficients::set(int itype, int jtype, const Choice &choice)
 
 /* ---------------------------------------------------------------------- */
 
-std::optional<ContactLaw> ContactCoefficients::law(int itype, int jtype) const
+std::optional<ContactLaw> ContactCoefficients::law(int itype, int jtype, double length) const
 {
   if (!touch(itype, jtype)) return {};
   const std::size_t law = kind[itype][jtype] - 1;
   std::vector<double> values;
   for (const auto &parameter : rbc::law_parameters<ContactLaw>(law))
-    values.push_back(parameters[place_of(parameter.name)][itype][jtype]);
+    values.push_back(parameters[place_of(parameter.name)][itype][jtype] *
+                     (parameter.is_length ? length : 1));
   return rbc::make_law<ContactLaw>(law, values);
 }
 

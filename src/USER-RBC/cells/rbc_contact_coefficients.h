@@ -35,8 +35,9 @@ class ContactCoefficients : protected Pointers {
 
   bool touch(int itype, int jtype) const { return kind[itype][jtype] != 0; }
 
-  /// The law of two types with its present parameters; none if they do not touch.
-  std::optional<rbc::ContactLaw> law(int itype, int jtype) const;
+  /// The law of two types with its present parameters, whose lengths are in units of `length`; none
+  /// if they do not touch.
+  std::optional<rbc::ContactLaw> law(int itype, int jtype, double length) const;
 
   /// Values of a parameter over pairs of types; nullptr if no law has one of that name.
   double **parameter(const std::string &name);

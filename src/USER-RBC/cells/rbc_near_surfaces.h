@@ -61,6 +61,7 @@ class NearSurfaces : protected Pointers {
 
   /// Who ends the run, or takes a step again, for what is found here.
   void report_to(const std::shared_ptr<CollectiveStop> &stop_in) { stop = stop_in; }
+  CollectiveStop &stopper() { return *stop; }
 
   double bytes() const;
 

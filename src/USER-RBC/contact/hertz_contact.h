@@ -18,7 +18,7 @@ class HertzContact {
  public:
   static constexpr const char *name = "repulsive";
   static constexpr std::array<LawParameter, 2> parameters{
-      {{"K", Bound::positive}, {"R", Bound::positive}}};
+      {{"K", Bound::positive}, {"R", Bound::positive, true}}};
 
   HertzContact(double K, double R) : modulus_(K), tip_radius_(R), tip_area_(pi * R * R) {}
 

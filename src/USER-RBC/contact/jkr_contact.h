@@ -20,7 +20,7 @@ class JkrContact {
  public:
   static constexpr const char *name = "adhesive";
   static constexpr std::array<LawParameter, 3> parameters{
-      {{"K", Bound::positive}, {"sigma", Bound::positive}, {"R", Bound::positive}}};
+      {{"K", Bound::positive}, {"sigma", Bound::positive}, {"R", Bound::positive, true}}};
 
   JkrContact(double K, double sigma, double R);
 

@@ -166,7 +166,7 @@ double SceneTable::cells() const
 
 void SceneTable::find_repelling()
 {
-  repelling_.clear();
+  repelling_ = repelling_pairs();
   int of_cells = 0;
   for (const Kind &kind : kinds_) of_cells |= kind.membranes->groupbit();
   for (Fix *fix : modify->get_fix_list()) {
@@ -178,6 +178,22 @@ void SceneTable::find_repelling()
     if (any)
       repelling_ += fmt::format("{}{} {}", repelling_.empty() ? "" : ", ", fix->style, fix->id);
   }
+}
+
+/// Pair styles that repel cells of some type from plates or walls, in words.
+std::string SceneTable::repelling_pairs() const
+{
+  std::string pairs;
+  for (StepPart *part : pair_step_parts(force)) {
+    auto *const contact = dynamic_cast<CellContact *>(part);
+    std::string boundaries;
+    for (const Kind &kind : kinds_)
+      for (int type : kind.types)
+        if (contact && boundaries.empty()) boundaries = contact->repelling_boundaries(type);
+    if (!boundaries.empty())
+      pairs += fmt::format("{}pair rbc/jkr {}", pairs.empty() ? "" : ", ", boundaries);
+  }
+  return pairs;
 }
 
 /// Distance of the vertex that is nearest to a plate. Collective.
@@ -270,8 +286,8 @@ void SceneTable::warn_of_plates(const DrivenFlow &flow) const
   if (!flow.settings().plates || cells() < 2) return;
   if (repelling_.empty())
     error->warning(FLERR,
-                   "{}: nothing repels the {:.0f} cells from the plates; use fix wall/harmonic "
-                   "with zlo EDGE and zhi EDGE, or include potentials/dense.blood",
+                   "{}: nothing repels the {:.0f} cells from the plates; use plates yes of "
+                   "pair_style rbc/jkr, or include potentials/dense.blood",
                    style_, cells());
   const double distance = plate_distance_ / spacing_;
   if (distance < NEAREST_PLATE)

@@ -39,13 +39,14 @@ class SceneTable : protected Pointers {
   double spacing_ = 1, shear_rate_ = 0, plate_distance_ = 0;
   std::vector<Kind> kinds_;
   std::vector<std::string> apart_;    ///< cells that do not touch each other, in words
-  std::string repelling_;             ///< fixes that repel cells from walls
+  std::string repelling_;             ///< pair styles and fixes that repel cells from walls
 
   double shear_rate(const DrivenFlow &flow) const;
   void find_kinds(const DrivenFlow &flow);
   void find_types();
   void find_contacts();
   void find_repelling();
+  std::string repelling_pairs() const;
   double plate_distance() const;
   double contact_range(const Kind &one, const Kind &other) const;
   double contact_range(int itype, int jtype) const;

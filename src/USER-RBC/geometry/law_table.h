@@ -17,6 +17,7 @@ enum class Bound { positive, not_negative };
 struct LawParameter {
   const char *name;
   Bound bound;
+  bool is_length = false;    ///< may be given in another unit than that of the input
 };
 
 /// Lists of laws. A std::variant of laws is their table: readers of input find a law in it by its

@@ -97,8 +97,8 @@ std::string text(Remedy remedy, const Situation &now)
       return fmt::format("neighbor {:.3g} bin, and neigh_modify every 1 delay 0 check yes",
                          MORE * now.skin);
     case Remedy::repel:
-      return "a force that holds cells off the plates (fix wall/harmonic); cells that start "
-             "further from the plates";
+      return "a force that holds cells off plates and walls (plates yes of pair_style rbc/jkr); "
+             "cells that start further from them";
   }
   return {};
 }
