@@ -66,7 +66,7 @@ class Blood(unittest.TestCase):
         result = self.one(hematocrit=0.3, tube=14, length=14, strain=0.3)
         viscosity = self.check(result, np.pi / 4 * 14**2 * 14)
         self.assertGreater(viscosity.min(), 1)    # of all flows at this flow rate plasma's dissipates least
-        self.assertIn("fix rbc/wall vessel; cells are repelled by wall/region repel", result.printed)
+        self.assertIn("fix rbc/wall vessel; cells are repelled by pair rbc/jkr walls inside", result.printed)
 
 
 class FirstTry(unittest.TestCase):
