@@ -31,7 +31,7 @@ IB = "fix ib all rbc/ib flow "
 # Cells that overlap at the start would move too far for the list at a longer timestep.
 DENSE = dict(box="region box block 0 12 0 12 0 14", timestep="timestep 2",
              cells="rbc/create rbc hematocrit 0.3 seed 4711 overlap 0.1",
-             before="pair_style rbc/jkr 0.6\npair_coeff 1 1 adhesive 0.07 1.0e-3 0.4\n"
+             before="pair_style rbc/jkr 0.6 plates yes\npair_coeff 1 1 adhesive 0.07 1.0e-3 0.4\n"
                     "comm_modify cutoff 5.0")
 
 
@@ -50,6 +50,10 @@ SCENES = {
                   ib="fix ib cells rbc/ib flow integrator rkc auto"),
     "walls body": dict(TUBE, fluid=FLUID + "inside tube body 5e-5 0 0",
                        ib="fix ib cells rbc/ib flow integrator midpoint"),
+    "walls repel": dict(TUBE, fluid=FLUID + "inside tube mean x 1e-3",
+                        ib="fix ib cells rbc/ib flow integrator rkc auto",
+                        before="pair_style rbc/jkr 3.5 walls tube\npair_coeff * * none\n"
+                               "pair_coeff 1 1 repulsive 0.01 3.5", timestep="timestep 10"),
     "viscous": dict(membrane=SHEAR["membrane"] + " viscosity 50", ib=IB + "integrator rkc auto"),
     "thinning": dict(membrane=SHEAR["membrane"] + " viscosity 50 thinning 5 1e-4",
                      ib=IB + "integrator midpoint"),

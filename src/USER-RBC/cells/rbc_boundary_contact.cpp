@@ -61,6 +61,7 @@ void BoundaryContact::build(const NearSurfaces &surfaces, double range, double s
     if (laws_[atom->type[i]] && surfaces.is_vertex(i) &&
         (region_moves || can_touch(i, range + slack / 2)))
       candidates_.push_back({i, surfaces.area(i)});
+  contacts_.reserve(2 * candidates_.size());
 }
 
 bool BoundaryContact::can_touch(int i, double range) const
