@@ -11,6 +11,14 @@
 
 namespace fluid {
 
+/// Gaussian blobs of standard deviation sigma / sqrt(2) in a fluid. With `second` and `fourth`,
+/// lengths squared and to the fourth power, the velocity u that one causes counts as u - second lap
+/// u + fourth lap lap u, see sheet_correction().
+struct Blob {
+  double sigma, viscosity;
+  double second = 0, fourth = 0;
+};
+
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -31,28 +39,49 @@ constexpr double disc = 2;
 // Added to the mobility of each marker with itself, relative to it.
 constexpr double regularisation = 0.005;
 
-/// Mobility of two Gaussian blobs of standard deviation sigma / sqrt(2) at the distance r:
-///   f I + g r r / r^2, from the Stokeslet (I lap - grad grad) H / (8 pi viscosity),
-/// where H is the distance averaged over both blobs.
+// The part of a sheet's fourth-order correction that blobs have: the differences of the grid are
+// smaller than derivatives where forces vary from marker to marker. Takes the fewest iterations.
+constexpr double fourth_share = 0.25;
+
+/// Mobility of two blobs at the distance r:
+///   f I + g r r / r^2, from the Stokeslet (I lap - grad grad) K / (8 pi viscosity),
+/// where K = H - second lap H + fourth lap lap H, and H is the distance averaged over both blobs.
 struct BlobPair {
   double f, g;
 
-  BlobPair(double r, double sigma, double viscosity)
+  BlobPair(double r, const Blob &blob)
   {
-    const double factor = 1 / (8 * pi * viscosity), s = r / sigma;
-    const double peak = std::sqrt(2 / pi) / sigma;
-    if (s < 1e-3) {    // the error is of order s^2
-      f = factor * 4.0 / 3.0 * peak;
-      g = 0;
-      return;
+    const double sigma = blob.sigma, s = r / sigma, square = sigma * sigma;
+    const double factor = 1 / (8 * pi * blob.viscosity), peak = std::sqrt(2 / pi) / sigma;
+    // lap H is twice the potential of a blob, and lap lap H is -2 bell / sigma^2
+    const double bell = peak * std::exp(-0.5 * s * s), bent = 2 * blob.fourth / (square * square);
+    double first, second;    // K' / r, K''
+    if (s < 1e-3) {          // the error is of order s^2
+      first = second = peak * (2.0 / 3 + blob.second * 2.0 / 3 / square + bent);
+    } else {
+      const double error = std::erf(s / std::sqrt(2.0)) / r;
+      const double slope = (bell - error) / (r * r);    // of the potential, over r
+      first = error * (1 - 1 / (s * s)) + bell / (s * s);
+      second = 2 * (error - first);
+      first += -2 * blob.second * slope + bent * bell;
+      second += 2 * blob.second * (bell / square + 2 * slope) + bent * bell * (1 - s * s);
     }
-    const double bell = peak * std::exp(-0.5 * s * s), error = std::erf(s / std::sqrt(2.0)) / r;
-    const double first = error * (1 - 1 / (s * s)) + bell / (s * s);    // H' / r
-    const double second = 2 * (error - first);                          // H''
     f = factor * (second + first);
     g = factor * (first - second);
   }
 };
+
+/// A single one of these blobs moves as a marker does.
+Blob blob_like(const MarkerSet &markers, double h, double viscosity)
+{
+  Blob blob{std::sqrt(2 / pi) * marker_radius(markers.kernel) * h, viscosity};
+  if (markers.kind == MarkerKind::sheets) {
+    const SheetCorrection correction = sheet_correction(markers.kernel);
+    blob.second = correction.second * h * h;
+    blob.fourth = fourth_share * correction.fourth * h * h * h * h;
+  }
+  return blob;
+}
 
 /// Takes out of `waiting` the markers of the next level: those that are no nearer than the spacing
 /// to each other and to the markers of earlier levels.
@@ -103,14 +132,13 @@ double marker_radius(KernelKind kernel)
   return kernel == KernelKind::peskin4 ? 1.25 : 0.91;
 }
 
-void MobilityPreconditioner::build(const Flow &flow, KernelKind kernel, int count,
-                                   const double *position, const int *body)
+void MobilityPreconditioner::build(const Flow &flow, const MarkerSet &markers, const int *body)
 {
-  const MarkerCloud cloud = gather(flow, count, position, body);
+  const MarkerCloud cloud = gather(flow, markers.count, markers.position, body);
   const double h = std::cbrt(flow.grid().cell_volume());
   const double viscosity = flow.equations().viscosity;
   const auto compliances = set_compliance(cloud, h, viscosity);
-  set_columns(cloud, choose_rows(cloud, h), compliances, viscosity, marker_radius(kernel) * h);
+  set_columns(cloud, choose_rows(cloud, h), compliances, blob_like(markers, h, viscosity));
 }
 
 MarkerCloud MobilityPreconditioner::gather(const Flow &flow, int count, const double *position,
@@ -219,8 +247,7 @@ std::vector<double> MobilityPreconditioner::set_compliance(const MarkerCloud &cl
 
 void MobilityPreconditioner::set_columns(const MarkerCloud &cloud,
                                          const std::vector<std::vector<int>> &columns,
-                                         const std::vector<double> &compliances, double viscosity,
-                                         double radius)
+                                         const std::vector<double> &compliances, const Blob &blob)
 {
   starts_.assign(1, 0);
   rows_.clear();
@@ -240,18 +267,16 @@ void MobilityPreconditioner::set_columns(const MarkerCloud &cloud,
     }
     rows_.insert(rows_.end(), columns[n].begin(), columns[n].end());
     starts_.push_back(static_cast<int>(rows_.size()));
-    add_column(apart, compliance, viscosity, radius);
+    add_column(apart, compliance, blob);
   }
 }
 
 /// With the mobility M of the markers of a column, E those of its first: M^-1 E C^-T, where C C^T =
 /// E^T M^-1 E.
 void MobilityPreconditioner::add_column(const std::vector<Real3> &apart,
-                                        const std::vector<double> &compliance, double viscosity,
-                                        double radius)
+                                        const std::vector<double> &compliance, const Blob &blob)
 {
-  const double sigma = std::sqrt(2 / pi) * radius;    // the same mobility of one blob
-  const double extra = regularisation / (6 * pi * viscosity * radius);
+  const double extra = regularisation * BlobPair(0, blob).f;
   const int n = static_cast<int>(apart.size());
   Eigen::MatrixXd mobility(3 * n, 3 * n);
   for (int a = 0; a < n; ++a)
@@ -259,7 +284,7 @@ void MobilityPreconditioner::add_column(const std::vector<Real3> &apart,
       const Eigen::Vector3d r = Eigen::Map<const Eigen::Vector3d>(apart[a].data()) -
                                 Eigen::Map<const Eigen::Vector3d>(apart[b].data());
       const double distance = r.norm();
-      const BlobPair pair(distance, sigma, viscosity);
+      const BlobPair pair(distance, blob);
       Eigen::Matrix3d block = pair.f * Eigen::Matrix3d::Identity();
       if (distance > 0) block += pair.g / (distance * distance) * r * r.transpose();
       if (a == b) block.diagonal().array() += extra + compliance[a];

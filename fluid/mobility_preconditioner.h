@@ -4,6 +4,7 @@
 
 namespace fluid {
 
+struct Blob;
 struct MarkerCloud;
 
 /// Approximate inverse of the mobility of markers, from velocities to forces, for preconditioning:
@@ -11,16 +12,15 @@ struct MarkerCloud;
 /// to fine, such that the first ones of any number cover the surface evenly. Each depends on those
 /// before it within a few times the distance to the nearest of these, which is what is best for a
 /// given sparsity (Schaefer, Katzfuss & Owhadi, SIAM J. Sci. Comput. 43 (2021) A2019). The mobility
-/// is that of blobs of the size of the kernel in unbounded steady flow, and the compliance of the
-/// markers.
+/// is that of blobs of the size of the kernel in unbounded steady flow, corrected for sheets as their
+/// velocities are, and the compliance of the markers.
 ///
 /// Every rank knows all markers, so the result does not depend on the number of ranks.
 class MobilityPreconditioner {
  public:
-  /// Takes this rank's markers: `count` bodies and positions, three numbers each. Markers of
-  /// different bodies, which may move relative to each other, are independent. Collective.
-  void build(const Flow &flow, KernelKind kernel, int count, const double *position,
-             const int *body);
+  /// Takes this rank's markers, in rows 0, 1, ... of their positions, and the body of each. Markers
+  /// of different bodies, which may move relative to each other, are independent. Collective.
+  void build(const Flow &flow, const MarkerSet &markers, const int *body);
 
   /// Computes the velocity with which markers yield to forces, in addition to that of the flow. It
   /// is that of a slip length of 0.0003 grid spacings, applied to the force of a marker less the
@@ -56,9 +56,9 @@ class MobilityPreconditioner {
   /// Returns the compliance of each marker of the cloud.
   std::vector<double> set_compliance(const MarkerCloud &cloud, double h, double viscosity);
   void set_columns(const MarkerCloud &cloud, const std::vector<std::vector<int>> &columns,
-                   const std::vector<double> &compliances, double viscosity, double radius);
+                   const std::vector<double> &compliances, const Blob &blob);
   void add_column(const std::vector<Real3> &apart, const std::vector<double> &compliance,
-                  double viscosity, double radius);
+                  const Blob &blob);
 };
 
 /// Radius of a sphere in unbounded flow with the mobility of one marker, over the spacing of the

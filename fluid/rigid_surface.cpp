@@ -79,7 +79,7 @@ void RigidSurface::set_markers(const Flow &flow, KernelKind kernel, int count,
     vector->resize(numbers);
   built_ = position_ = Eigen::Map<const Vector>(position, numbers);
   release();
-  markers_ = {kernel, MarkerKind::points, count, index_.data(), position_.data()};
+  markers_ = {kernel, settings_.kind, count, index_.data(), position_.data()};
   times_.known = 0;
   directions_.resize(numbers, settings_.most_directions);
   responses_.resize(numbers, settings_.most_directions);
@@ -87,7 +87,7 @@ void RigidSurface::set_markers(const Flow &flow, KernelKind kernel, int count,
   shares_.setZero(settings_.most_directions);
   forget_directions();
 
-  preconditioner_.build(flow, kernel, count, position, body);
+  preconditioner_.build(flow, markers_, body);
   if (!settings_.free_mean) return;
   uniform_.resize(numbers, 3);
   for (int d = 0; d < 3; ++d) {

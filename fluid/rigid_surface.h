@@ -31,6 +31,10 @@ class RigidSurface {
     int max_solves = 100;    ///< of an evaluation, including the first
     int most_directions = 64;
     bool free_mean = false;
+
+    /// Sheets hold the fluid where the markers are. Points hold it surface_offset() further into
+    /// the fluid, and more, by a second-order part, where the surface is curved.
+    MarkerKind kind = MarkerKind::points;
   };
   const Settings &settings() const { return settings_; }
 

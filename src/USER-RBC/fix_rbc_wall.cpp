@@ -51,6 +51,11 @@ WallGroup::Settings FixRBCWall::parse(int narg, char **arg)
   Arguments args(lmp, "fix rbc/wall", narg, arg, 4);
   args.read({{"velocity", [&] { settings.velocity = args.vector(); }},
              {"kernel", [&] { settings.kernel = args.choice(kernel_words); }},
+             {"sheets",
+              [&] {
+                settings.kind =
+                    args.logical() ? fluid::MarkerKind::sheets : fluid::MarkerKind::points;
+              }},
              {"tol", [&] { settings.tolerance = args.between(0, 1); }},
              {"maxiter", [&] { settings.max_solves = args.whole(1, MAXSMALLINT); }}});
   return settings;

@@ -35,6 +35,7 @@ class FixRBCWall : public Fix, public FluidClient {
 
   const std::string &fluid_id() const override { return fluid; }
   WallGroup *wall_group() override { return &wall; }
+  bool has_sheets() const override { return wall.settings().kind == fluid::MarkerKind::sheets; }
 
  private:
   std::string fluid;

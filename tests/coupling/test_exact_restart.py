@@ -25,6 +25,7 @@ WALL = dict(
     boundary="boundary p p p", box="region box block 0 12 0 12 0 12\nlattice sc 1.0", create_box="create_box 2 box",
     walls="region slab block INF INF INF INF -0.1 0.1\ncreate_atoms 2 region slab")
 BOUNDARIES = {"plates": {}, "walls": dict(WALL, wall="fix vessel wall rbc/wall flow"),
+              "sheet walls": dict(WALL, wall="fix vessel wall rbc/wall flow sheets yes"),
               "moving walls": dict(WALL, wall="fix vessel wall rbc/wall flow velocity v_U 0 0")}
 MEMBRANES = {"elastic": "volume yes", "viscous": "volume yes viscosity 0.5",
              "thinning": "volume yes viscosity 0.5 thinning 0.1 0.001"}
@@ -42,6 +43,7 @@ UNSTEADY = list(itertools.product(("euler", "midpoint"), INERTIA, CONTACTS))
 FEW = [("euler", "plates", "elastic", "contact", "mean x"), ("ab2", "walls", "viscous", "no contact", "mean x"),
        ("midpoint", "walls", "thinning", "contact", "driven"), ("rkc auto", "walls", "elastic", "contact", "mean x"),
        ("rkc adapt", "plates", "viscous", "contact", "mean x"), ("rkc", "moving walls", "elastic", "contact", "driven"),
+       ("midpoint", "sheet walls", "elastic", "contact", "mean x"),
        ("adapt order 3", "moving walls", "elastic", "no contact", "driven"),
        ("order 3", "plates", "thinning", "contact", "driven"), ("midpoint", "direct", "contact"),
        ("rkc auto", "plates", "elastic", "boundaries", "driven"), ("midpoint", "walls", "elastic", "boundaries", "mean x")]

@@ -290,15 +290,69 @@ class Vessel(unittest.TestCase):
         self.assertLess(last["f_w[9]"], 3)
 
 
+class Sheets(unittest.TestCase):
+    """Atoms on the surface of the body that they stand for."""
+
+    def test_drag_of_spheres_that_rbc_surface_makes(self):
+        # Zick & Homsy: K = 4.292 at 12.5 %, 7.442 at 21.6 %
+        for kernel in ("roma3", "peskin4"):
+            for share, factor in ((0.31017525, 4.292), (0.37221029, 7.442)):
+                n = round(7.4 / share)
+                made = (f"region box block 0 {n} 0 {n} 0 {n}\ncreate_box 2 box angle/types 1\n"
+                        f"region ball sphere {n / 2 + 0.1} {n / 2 + 0.2} {n / 2 + 0.3} {share * n}\n"
+                        "rbc/surface ball type 2 spacing 1.2")
+                result = run(script("mean 1e-3 0 0", f"sheets yes kernel {kernel}", data=made))
+                expected = 6 * np.pi * VISCOSITY * share * n * factor * 1e-3
+                with self.subTest(kernel, share=share):
+                    self.assertAlmostEqual(result.thermo["f_w[1]"][0] / expected, 1, delta=0.005)
+
+    def test_torque_in_shear_flow(self):
+        # 4 pi eta a^3 times the shear rate in unbounded flow; what the plates add is below 1 %
+        box, radius, rate = (54, 54, 54), 8.0, 1e-4
+        u = rate * box[2] / 2
+        result = walls(box, sphere((27.1, 27.2, 27.0), radius), drive=f"wall zlo {-u} 0 0 wall zhi {u} 0 0",
+                       wall="tol 1e-4 sheets yes", **PLATES)
+        expected = 4 * np.pi * VISCOSITY * radius**3 * rate
+        self.assertAlmostEqual(result.thermo["f_w[5]"][0] / expected, 1, delta=0.01)
+
+    def test_given_another_kind_between_runs(self):
+        box, surface = (24, 24, 24), sphere((12.1, 12.2, 12.3), 7.4)
+        again = "\nrun 0\nunfix w\nfix w w rbc/wall flow kernel peskin4 sheets {}"
+        lines = dict(drive="mean 1e-3 0 0", wall="tol 1e-6 maxiter 300 ")
+        force = {}
+        for kind in ("yes", "no"):
+            first = walls(box, surface, **dict(lines, wall=lines["wall"] + f"sheets {kind}"))
+            force[kind] = first.thermo["f_w[1]"][0]
+        for before, kind in (("no", "yes"), ("yes", "no")):
+            later = walls(box, surface, drive=lines["drive"], wall=lines["wall"] + f"sheets {before}",
+                          run=f"run 0{again.format(kind)} {lines['wall']}\nrun 0")
+            found = later.tables()[-1]["f_w[1]"][0]
+            self.assertAlmostEqual(found / force[kind], 1, delta=1e-5)
+        self.assertGreater(force["no"] / force["yes"], 1.1)
+
+    def test_cells_in_a_tube_on_any_tasks(self):
+        results = [walls(Tube.BOX, tube(Tube.BOX, Tube.RADIUS), **Tube.CELLS, run="run 5", ranks=ranks,
+                         wall="sheets yes tol 1e-9 maxiter 300") for ranks in (1, 2, 4)]
+        one = results[0].dump()("vx", "vy", "vz")
+        for result in results[1:]:
+            np.testing.assert_allclose(result.thermo["f_flow[7]"], results[0].thermo["f_flow[7]"], rtol=1e-6)
+            np.testing.assert_allclose(result.dump()("vx", "vy", "vz"), one, atol=1e-6 * abs(one).max())
+
+    def test_solves_with_cells(self):
+        result = walls(Tube.BOX, tube(Tube.BOX, Tube.RADIUS), **Tube.CELLS, run="run 20", wall="sheets yes")
+        self.assertLess(result.thermo["f_w[9]"][-1], 4)
+        self.assertLess(result.thermo["f_w[7]"].max(), 1e-3)
+
+
 class Spacing(unittest.TestCase):
     """Of the atoms, on lattices that go on through the periodic sides."""
     BOX = (24, 24, 24)
 
-    def warnings(self, across, along, ranks=1, grid="dx 1.0", steps="run 0"):
-        wall = [(x, y, 12.0) for x in np.arange(0.3, 24, across) for y in np.arange(0.2, 24, along)]
-        printed = walls(self.BOX, wall, ranks=ranks, run=steps,
+    def warnings(self, across, along, ranks=1, grid="dx 1.0", steps="run 0", wall="", most="2.25"):
+        atoms = [(x, y, 12.0) for x in np.arange(0.3, 24, across) for y in np.arange(0.2, 24, along)]
+        printed = walls(self.BOX, atoms, ranks=ranks, run=steps, wall=wall,
                         fluid=BASE["fluid"].replace("dx 1.0", grid)).printed
-        return re.findall(r"WARNING: Fix rbc/wall w: (\d+) of (\d+) atoms are more than 2.25 spacings of "
+        return re.findall(rf"WARNING: Fix rbc/wall w: (\d+) of (\d+) atoms are more than {most} spacings of "
                           r"the fluid's grid from those beside them \((\S+) in the mean of all\)", printed)
 
     def test_a_coarse_wall_is_a_warning_on_any_tasks(self):
@@ -316,6 +370,11 @@ class Spacing(unittest.TestCase):
         for spacing in (1, 1.5, 2):
             self.assertEqual(self.warnings(spacing, spacing), [])
 
+    def test_sheets_must_be_closer(self):
+        for spacing, atoms in ((1.5, None), (2, "144")):
+            self.assertEqual(self.warnings(spacing, spacing, wall="sheets yes", most="1.75"),
+                             [(atoms, atoms, "2")] if atoms else [])
+
     def test_comes_once(self):
         self.assertEqual(len(self.warnings(3, 3, steps="run 1\nrun 1")), 1)
 
@@ -330,8 +389,9 @@ class Errors(unittest.TestCase):
         self.assertIn(message, result.error)
 
     def test_arguments(self):
-        self.check("Unknown fix rbc/wall keyword slip; allowed: velocity, kernel, tol, maxiter", wall="slip 1")
+        self.check("Unknown fix rbc/wall keyword slip; allowed: velocity, kernel, sheets, tol, maxiter", wall="slip 1")
         self.check("Unknown fix rbc/wall kernel hat; allowed: peskin4, roma3", wall="kernel hat")
+        self.check("Expected boolean parameter instead of 'maybe'", wall="sheets maybe")
         self.check("Fix rbc/wall tol value 2 must be between 0 and 1", wall="tol 2")
         self.check("Fix rbc/wall maxiter value 0 must be > 0", wall="maxiter 0")
         self.check("Illegal fix rbc/wall velocity command: missing argument", wall="velocity 1 0")
@@ -341,9 +401,12 @@ class Errors(unittest.TestCase):
     def test_groups(self):
         self.check("Fix rbc/wall w: its group has no atoms", groups="group w type 1")
         self.check("Fix rbc/wall v and Fix rbc/wall w have atoms in common", wall="\nfix v all rbc/wall flow kernel peskin4")
-        self.check("Fix rbc/wall v: kernel, tol and maxiter must be those of Fix rbc/wall w",
+        self.check("Fix rbc/wall v: kernel, sheets, tol and maxiter must be those of Fix rbc/wall w",
                    surfaces=[plane(self.BOX, 2.0), plane(self.BOX, 6.0)], groups="group w type 2\ngroup v type 3",
                    wall="\nfix v v rbc/wall flow tol 1e-4")
+        self.check("Fix rbc/wall v: kernel, sheets, tol and maxiter must be those of Fix rbc/wall w",
+                   surfaces=[plane(self.BOX, 2.0), plane(self.BOX, 6.0)], groups="group w type 2\ngroup v type 3",
+                   wall="\nfix v v rbc/wall flow kernel peskin4 sheets yes")
         self.check("Fix rbc/ib ib would move atoms of fix rbc/wall w: their groups must have no atoms in common",
                    ib="fix ib all rbc/ib flow")
 

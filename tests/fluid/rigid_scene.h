@@ -20,14 +20,16 @@ struct Scene {
   KernelKind kernel;
 
   Scene(const Grid &grid, const Decomposition &decomposition, KernelKind kernel,
-        std::vector<Points> bodies, bool free_mean, double tolerance = tight) :
-      flow(grid, decomposition, ghost_layers, FlowEquations{}),
+        std::vector<Points> bodies, bool free_mean, double tolerance = tight,
+        MarkerKind kind = MarkerKind::points) :
+      flow(grid, decomposition, layers(kind), FlowEquations{}),
       bodies(std::move(bodies)), kernel(kernel)
   {
     RigidSurface::Settings settings;
     settings.free_mean = free_mean;
     settings.tolerance = tolerance;
     settings.max_solves = 300;
+    settings.kind = kind;
     if (tolerance < 1e-6) settings.most_directions = 300;
     surface.set_settings(settings);
     for (std::size_t b = 0; b < this->bodies.size(); ++b) {
@@ -37,6 +39,11 @@ struct Scene {
       body.insert(body.end(), this->bodies[b].index.size(), static_cast<int>(b));
     }
     surface.set_markers(flow, kernel, static_cast<int>(body.size()), position.data(), body.data());
+  }
+
+  static int layers(MarkerKind kind)
+  {
+    return ghost_layers + (kind == MarkerKind::sheets ? SheetVelocity::layers : 0);
   }
 
   /// body_force(c, x) is the force density; velocity(b) is that of a body.
@@ -108,11 +115,12 @@ inline Grid around_tube(double radius, double length)
 }
 
 /// Drag over 6 pi viscosity a U of a simple cubic array of n^3 cells a sphere, U the mean velocity.
-inline double array(KernelKind kernel, double radius, double markers, int n)
+inline double array(KernelKind kernel, double radius, double markers, int n,
+                    MarkerKind kind = MarkerKind::points)
 {
   const Grid grid{{n, n, n}, {0, 0, 0}, {1, 1, 1}, false};
   Scene scene(grid, even(grid, {1, 1, ranks()}), kernel,
-              {sphere({n / 2 + 0.1, n / 2 + 0.2, n / 2 + 0.3}, markers, 1.2)}, false, 1e-4);
+              {sphere({n / 2 + 0.1, n / 2 + 0.2, n / 2 + 0.3}, markers, 1.2)}, false, 1e-4, kind);
   scene.flow.forcing.mean = {1, 0, 0};
   scene.solve(no_force, at_rest);
   return -scene.force(0)[0] / (6 * pi * radius);

@@ -1,4 +1,4 @@
-#include "rigid_scene.h"
+#include "curved_walls.h"
 
 namespace {
 
@@ -81,24 +81,6 @@ TEST(RigidVessel, Leakage)
   }
 }
 
-struct PoiseuilleError {
-  double rate, leakage;    ///< relative to the closed form; through the wall, to the rate
-};
-
-/// A force density within a tube drives the flow.
-PoiseuilleError poiseuille(KernelKind kernel, double radius)
-{
-  const Grid grid = around_tube(radius, 2 * radius);
-  const double markers = radius + surface_offset(kernel);
-  Scene scene(grid, even(grid, {1, 1, ranks()}), kernel, {tube(grid, markers, 1.2)}, true, 1e-4);
-  scene.solve(
-      [&](int c, const Real3 &x) { return c == 0 && from_axis(grid, x) < radius ? 1.0 : 0.0; },
-      at_rest);
-  const auto rates = flow_rates(scene, markers);
-  const auto [least, most] = std::minmax_element(rates.begin(), rates.end());
-  return {*most / (pi * std::pow(radius, 4) / 8) - 1, (*most - *least) / *most};
-}
-
 /// Radii in cells; 14.0625 is that of a tube of 22.5 um at 0.8 um.
 TEST(RigidVessel, PoiseuilleFlow)
 {
@@ -113,44 +95,49 @@ TEST(RigidVessel, PoiseuilleFlow)
   }
 }
 
-/// Drag 6 pi viscosity a (K1 U - K2 V) of a sphere on the axis of a tube, V the velocity on the
-/// axis far away, by the method of reflections with all images (multipoles and Fourier-Bessel
-/// integrals, to more digits than given).
+/// Sheets need no offset, whether there is flow on one side or on both; points do not do the second.
+TEST(RigidVessel, PoiseuilleFlowBetweenSheets)
+{
+  for (KernelKind kernel : {KernelKind::peskin4, KernelKind::roma3})
+    for (bool everywhere : {false, true})
+      for (double radius : {7.03125, 14.0625}) {
+        const PoiseuilleError error = poiseuille(kernel, radius, MarkerKind::sheets, everywhere);
+        std::printf("flow rate between sheets, kernel %d, everywhere %d, radius %g: off by %.4f\n",
+                    static_cast<int>(kernel), everywhere, radius, error.rate);
+        EXPECT_LT(std::abs(error.rate), everywhere ? 0.01 : 0.06 / radius);
+        EXPECT_LT(error.leakage, 1e-4);
+      }
+}
+
 TEST(RigidVessel, SphereOnTheAxisOfATube)
 {
-  const double table[][3]{{0.1, 1.263216, 1.254796},
-                          {0.3, 2.370075, 2.228958},
-                          {0.5, 5.947265, 4.995246},
-                          {0.7, 24.67595, 17.47401}};
   for (KernelKind kernel : {KernelKind::peskin4, KernelKind::roma3})
-    for (const auto &[share, k1, k2] : table) {
+    for (const auto &[share, k1, k2] : tube_factors) {
       if (kernel == KernelKind::roma3 && share < 0.6) continue;
       const bool small = share < 0.2;
-      const double radius = small ? 32 : 16, a = share * radius;
-      const double markers = radius + surface_offset(kernel);
-      const Grid grid = around_tube(radius, (small ? 3 : 5) * radius);
-      const double middle = 0.5 * grid.cells[1];
-      Scene scene(grid, even(grid, {1, 1, ranks()}), kernel,
-                  {tube(grid, markers, 1.2), sphere({0.5 * grid.cells[0] + 0.1, middle, middle},
-                                                    dilute_radius(kernel, a), 1.2)},
-                  true, 1e-4);
-      // the tube is driven past the sphere at rest; then the sphere moves
-      double force[2], speed[2];
-      for (int moves : {0, 1}) {
-        scene.solve(
-            [&](int c, const Real3 &x) {
-              return !moves && c == 0 && from_axis(grid, x) < radius ? 1e-3 : 0.0;
-            },
-            [&](int body) {
-              return Real3{double(moves && body == 1), 0, 0};
-            },
-            moves);
-        force[moves] = scene.force(1)[0] / (6 * pi * a);
-        speed[moves] = 2 * flow_rates(scene, markers)[0] / (pi * radius * radius);
-      }
-      const double found2 = -force[0] / speed[0], found1 = force[1] + found2 * speed[1];
-      EXPECT_NEAR(found2 / found1, k2 / k1, 0.005 * k2 / k1) << share;
-      EXPECT_NEAR(found1, k1, 0.06 * k1) << share;
+      const double radius = small ? 32 : 16;
+      const TubeFactors found = found_factors(
+          kernel, MarkerKind::points, (small ? 3 : 5) * radius, {radius, share * radius},
+          {radius + surface_offset(kernel), dilute_radius(kernel, share * radius)});
+      EXPECT_NEAR(found.k2 / found.k1, k2 / k1, 0.005 * k2 / k1) << share;
+      EXPECT_NEAR(found.k1, k1, 0.06 * k1) << share;
+    }
+}
+
+/// Points, with the offset of a plane, are 5 to 13 % off. What is left is of third order in the gap
+/// between sphere and tube, 8 and 4.8 cells wide.
+TEST(RigidVessel, SheetsOfASphereOnTheAxisOfATube)
+{
+  for (KernelKind kernel : {KernelKind::peskin4, KernelKind::roma3})
+    for (const auto &[share, k1, k2] : tube_factors) {
+      if (share < 0.4) continue;
+      const TubeAndSphere radii{16, share * 16};
+      const TubeFactors found = found_factors(kernel, MarkerKind::sheets, 80, radii, radii);
+      const double part = (kernel == KernelKind::roma3 ? 1.5 : 2.5) / std::pow(16 * (1 - share), 3);
+      std::printf("sheets of a sphere in a tube, kernel %d, a/R %g: off by %.4f, %.4f\n",
+                  static_cast<int>(kernel), share, found.k1 / k1 - 1, found.k2 / k2 - 1);
+      EXPECT_NEAR(found.k1, k1, part * k1) << share;
+      EXPECT_NEAR(found.k2, k2, part * k2) << share;
     }
 }
 

@@ -109,8 +109,8 @@ void DrivenFlow::take_demands(const std::vector<FluidClient *> &clients,
     if (client->drives_flow()) {
       driven_ = true;
       cells_per_step_ = client->cells_per_step();
-      sheets_ = client->has_sheets();
     }
+    sheets_ = sheets_ || client->has_sheets();
     if (client->wall_group()) groups.push_back(client->wall_group());
   }
   connect_walls(groups);

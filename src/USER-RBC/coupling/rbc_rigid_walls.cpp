@@ -24,9 +24,11 @@ void RigidWalls::connect(const std::vector<WallGroup *> &walls, bool free_mean)
   fluid::RigidSurface::Settings settings = surface_.settings();
   if (settings.free_mean != free_mean) surface_is_set_ = false;
   if (surface_.kernel() != first()->settings().kernel) surface_is_set_ = false;
+  if (settings.kind != first()->settings().kind) surface_is_set_ = false;
   settings.tolerance = first()->settings().tolerance;
   settings.max_solves = first()->settings().max_solves;
   settings.free_mean = free_mean;
+  settings.kind = first()->settings().kind;
   surface_.set_settings(settings);
 }
 
@@ -38,11 +40,12 @@ bool RigidWalls::has_atom(const WallGroup &wall, int i) const
 void RigidWalls::check_settings(const WallGroup &wall) const
 {
   const WallGroup::Settings &mine = wall.settings(), &firsts = first()->settings();
-  if (mine.kernel != firsts.kernel || mine.tolerance != firsts.tolerance ||
-      mine.max_solves != firsts.max_solves)
-    error->all(FLERR,
-               "{}: kernel, tol and maxiter must be those of {}, which bounds the same fluid",
-               wall.style(), first()->style());
+  if (mine.kernel != firsts.kernel || mine.kind != firsts.kind ||
+      mine.tolerance != firsts.tolerance || mine.max_solves != firsts.max_solves)
+    error->all(
+        FLERR,
+        "{}: kernel, sheets, tol and maxiter must be those of {}, which bounds the same fluid",
+        wall.style(), first()->style());
 }
 
 void RigidWalls::check_atoms(const WallGroup &wall) const

@@ -18,6 +18,7 @@ class WallGroup : protected Pointers {
   struct Settings {
     std::array<NumberOrVariable, 3> velocity;
     fluid::KernelKind kernel = fluid::default_kernel;
+    fluid::MarkerKind kind = fluid::MarkerKind::points;
     double tolerance = 1.0e-3;    ///< largest slip, see fluid::RigidSurface
     int max_solves = 100;         ///< of an evaluation
   };

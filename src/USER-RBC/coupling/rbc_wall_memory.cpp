@@ -17,6 +17,14 @@ namespace {
 /// numbers of each, numbers that all share.
 constexpr std::size_t FLOW = 10, HEAD = FLOW + 3;
 
+/// Kernel and kind in one number, which for points is the one that older files have.
+double marker_key(const WallGroup::Settings &settings)
+{
+  constexpr int SHEETS = 16;    // beyond all kernels
+  return static_cast<int>(settings.kernel) +
+         (settings.kind == fluid::MarkerKind::sheets ? SHEETS : 0);
+}
+
 std::vector<double> flow_key(const fluid::Flow &flow, const WallGroup &first, bool free_mean)
 {
   const fluid::Grid &grid = flow.grid();
@@ -28,7 +36,7 @@ std::vector<double> flow_key(const fluid::Flow &flow, const WallGroup &first, bo
           grid.spacing[2],
           double(grid.plates),
           flow.equations().viscosity,
-          double(first.settings().kernel),
+          marker_key(first.settings()),
           double(free_mean)};
 }
 
