@@ -23,7 +23,7 @@ ARGUMENTS = [
     ("membrane", "rbc mooney-rivlin 0.2 0.02 0.01 bending 2e-4 reference dihedral volume yes"),
     ("membrane", "rbc skalak 0.005 50 bending 2e-4 0.0 helfrich area 1 0.05 volume 1 crease 0.1 45"),
     ("membrane", "rbc neo-hookean 1 stretch 0.1 2 swell v_v viscosity 100 thinning 10 1e-5 stress-free rbc"),
-    ("wall", "flow velocity 0 v_v 0 kernel roma3 tol 1e-3 maxiter 10"),
+    ("wall", "flow velocity 0 v_v 0 kernel roma3 sheets yes tol 1e-3 maxiter 10"),
     ("vtk", "1 cells.*.vtp unwrap yes aggregate agg"),
     ("vtk", "10 cells.*.pvtp"),
     ("cell", ""),
