@@ -24,7 +24,8 @@ using namespace FixConst;
 
 /* ---------------------------------------------------------------------- */
 
-FixRBCIB::FixRBCIB(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), cost(lmp)
+FixRBCIB::FixRBCIB(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), tractions(lmp, *this), cost(lmp)
 {
   time_integrate = 1;
   vector_flag = 1;
@@ -85,7 +86,7 @@ void FixRBCIB::build(const MotionSettings &settings)
   const std::string style = fmt::format("Fix rbc/ib {}", id);
   markers = std::make_unique<ImmersedMarkers>(lmp, style, groupbit, settings.markers);
   markers->viscosity().set_limits(settings.tolerance, settings.max_solves);
-  if (settings.gaps) gaps = std::make_unique<GapSlip>(lmp, this, settings.markers.kernel);
+  if (settings.gaps) gaps = std::make_unique<GapSlip>(lmp, *this, settings.markers.kernel);
   steps =
       std::make_unique<TimeSteps>(lmp, style, *markers, settings.integrator->make(settings.options),
                                   settings.error_bound, settings.largest_dt);
@@ -161,7 +162,8 @@ void FixRBCIB::init()
   bool viscous = false;
   for (CellMembranes *cells : membranes) {
     cells->report_to(markers->stop());
-    if (cells->keeps_volume() || cells->is_viscous()) check_moves_all(*cells);
+    if (cells->keeps_volume() || cells->is_viscous() || cells->is_smoothed())
+      check_moves_all(*cells);
     viscous = viscous || cells->is_viscous();
   }
   if (viscous && flow->has_inertia())
@@ -179,6 +181,7 @@ void FixRBCIB::init()
   markers->start_run(flow, membranes,
                      has_sheets() ? fluid::MarkerKind::sheets : fluid::MarkerKind::points);
   start_gaps(membranes);
+  start_smoothing(membranes);
   steps->start_run(flow, late_forces);
 }
 
@@ -201,6 +204,16 @@ void FixRBCIB::start_gaps(const std::vector<CellMembranes *> &membranes)
                    id);
 }
 
+void FixRBCIB::start_smoothing(const std::vector<CellMembranes *> &membranes)
+{
+  tractions.start_run(*flow, membranes);
+  markers->set_traction_filter(tractions.acts() ? &tractions : nullptr);
+  if (tractions.acts() && !has_sheets())
+    error->all(FLERR,
+               "Fix rbc/membrane smooth yes needs fix rbc/ib {} with sheets yes and scheme elastic",
+               id);
+}
+
 bool FixRBCIB::slides_in_gaps() const
 {
   return gaps && has_sheets() && gaps->acts();
@@ -213,27 +226,39 @@ double FixRBCIB::widest_gap() const
 }
 
 /* ----------------------------------------------------------------------
-   Ghosts get the tractions of their owners, and return what they slip.
+   exchange of numbers of ghosts
 ------------------------------------------------------------------------- */
+
+void FixRBCIB::send_to_ghosts(AtomRows &rows)
+{
+  exchanged = &rows;
+  comm->forward_comm(this);
+}
+
+void FixRBCIB::add_from_ghosts(AtomRows &rows)
+{
+  exchanged = &rows;
+  comm->reverse_comm(this);
+}
 
 int FixRBCIB::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/, int * /*pbc*/)
 {
-  return gaps->pack_tractions(n, list, buf);
+  return exchanged->pack(n, list, buf);
 }
 
 void FixRBCIB::unpack_forward_comm(int n, int first, double *buf)
 {
-  gaps->unpack_tractions(n, first, buf);
+  exchanged->unpack(n, first, buf);
 }
 
 int FixRBCIB::pack_reverse_comm(int n, int first, double *buf)
 {
-  return gaps->pack_slip(n, first, buf);
+  return exchanged->pack_reverse(n, first, buf);
 }
 
 void FixRBCIB::unpack_reverse_comm(int n, int *list, double *buf)
 {
-  gaps->unpack_slip(n, list, buf);
+  exchanged->add_reverse(n, list, buf);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -255,7 +280,7 @@ void FixRBCIB::post_neighbor()
 {
   markers->find_members();
   if (!masses) steps->atoms_migrated();
-  if (slides_in_gaps()) gaps->find_areas();
+  if (slides_in_gaps()) gaps->atoms_migrated();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -277,6 +302,7 @@ void FixRBCIB::setup(int /*vflag*/)
   parts.push_back(flow);
   parts.push_back(markers.get());
   if (slides_in_gaps()) parts.push_back(gaps.get());
+  if (tractions.acts()) parts.push_back(&tractions);
   if (flow->walls()) parts.push_back(flow->walls());
   cost.start(parts);
   flow->count_from_here();
@@ -389,5 +415,5 @@ void FixRBCIB::warn() const
 double FixRBCIB::memory_usage()
 {
   return static_cast<double>(markers->bytes() + steps->bytes() + (masses ? masses->bytes() : 0) +
-                             (gaps ? gaps->bytes() : 0));
+                             (gaps ? gaps->bytes() : 0) + tractions.bytes());
 }

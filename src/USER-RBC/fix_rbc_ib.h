@@ -14,6 +14,7 @@ FixStyle(rbc/ib,FixRBCIB);
 #include "coupling/rbc_motion_settings.h"
 #include "coupling/rbc_step_cost.h"
 #include "coupling/rbc_time_steps.h"
+#include "coupling/rbc_traction_filter.h"
 #include "fix.h"
 
 #include <memory>
@@ -23,7 +24,11 @@ FixStyle(rbc/ib,FixRBCIB);
 namespace LAMMPS_NS {
 
 /// Moves atoms with a fluid that their forces drive: arguments, checks, output and LAMMPS's hooks.
-class FixRBCIB : public Fix, public FluidClient, public RunEnd, public ContactReader {
+class FixRBCIB : public Fix,
+                 public FluidClient,
+                 public RunEnd,
+                 public ContactReader,
+                 public RowExchange {
  public:
   FixRBCIB(class LAMMPS *, int, char **);
   ~FixRBCIB() override;
@@ -70,6 +75,8 @@ class FixRBCIB : public Fix, public FluidClient, public RunEnd, public ContactRe
   std::unique_ptr<MassiveMarkers> masses;    // of scheme direct, else null
   std::unique_ptr<TimeSteps> steps;
   std::unique_ptr<GapSlip> gaps;    // null with gaps no
+  TractionFilter tractions;
+  AtomRows *exchanged = nullptr;    // in the exchange of ghosts that is under way
   StepCost cost;
 
   std::string store_id;
@@ -79,6 +86,9 @@ class FixRBCIB : public Fix, public FluidClient, public RunEnd, public ContactRe
   void update_default();
   void start_gaps(const std::vector<CellMembranes *> &);
   bool slides_in_gaps() const;
+  void start_smoothing(const std::vector<CellMembranes *> &);
+  void send_to_ghosts(AtomRows &) override;
+  void add_from_ghosts(AtomRows &) override;
   void build(const MotionSettings &);
   int stored() const;
   void check_run() const;

@@ -63,7 +63,8 @@ MembraneSettings FixRBCMembrane::parse(int narg, char **arg)
        [&] {
          take_stress_free_shape(lmp, *settings.surface, arg[3], args.text(), "fix rbc/membrane");
        }},
-      {"viscosity", [&] { settings.viscosity = read_viscosity(args); }}};
+      {"viscosity", [&] { settings.viscosity = read_viscosity(args); }},
+      {"smooth", [&] { settings.smoothed = args.logical(); }}};
   for (Arguments::Keyword &keyword : limits(args, elastic)) keywords.push_back(keyword);
   args.read(keywords);
   check_settings(settings);

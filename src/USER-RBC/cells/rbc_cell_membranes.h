@@ -18,6 +18,7 @@ struct MembraneSettings {
   rbc::SurfaceViscosity viscosity;
   Swelling swelling;
   bool volume_kept = true;
+  bool smoothed = false;    ///< tractions, by TractionFilter
 };
 
 /// The membranes of one fix rbc/membrane: forces, viscosity and volume of those parts of its cells
@@ -75,6 +76,8 @@ class CellMembranes : public StepPart, protected Pointers {
 
   /// Elastic energies of all cells in the last add_forces(). Collective.
   rbc::MembraneEnergy energy() const;
+
+  bool is_smoothed() const { return settings_.smoothed; }
 
   // viscosity
 

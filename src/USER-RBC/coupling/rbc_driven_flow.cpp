@@ -40,6 +40,12 @@ double DrivenFlow::smallest_spacing() const
   return std::min({h[0], h[1], h[2]});
 }
 
+double DrivenFlow::mean_spacing() const
+{
+  const auto &h = flow_->grid().spacing;
+  return std::cbrt(h[0] * h[1] * h[2]);
+}
+
 /* ----------------------------------------------------------------------
    none are needed without vertices
 ------------------------------------------------------------------------- */

@@ -35,6 +35,7 @@ class DrivenFlow : public StepPart, protected Pointers {
   class Grid3d *grid() const { return grid_.get(); }
   bool has_inertia() const { return settings_.equations.inertia != fluid::Inertia::none; }
   double smallest_spacing() const;
+  double mean_spacing() const;    ///< cube root of the volume of a fluid cell
   int ghost_layers() const { return ghost_layers_; }
   SceneTable &scene() { return scene_; }
 

@@ -3,7 +3,6 @@
 #include "atom.h"
 #include "cells/rbc_cell_contact.h"
 #include "cells/rbc_cell_membranes.h"
-#include "comm.h"
 #include "coupling/rbc_driven_flow.h"
 #include "domain.h"
 
@@ -13,29 +12,22 @@
 using namespace LAMMPS_NS;
 using rbc::dot, rbc::PlainVector;
 
-static PlainVector row(const double *rows, int i)
+static PlainVector vector(const double *row)
 {
-  return {rows[3 * std::size_t(i)], rows[3 * std::size_t(i) + 1], rows[3 * std::size_t(i) + 2]};
+  return {row[0], row[1], row[2]};
 }
 
-static void add_to_row(std::vector<double> &rows, int i, const PlainVector &added)
+static void add_to_row(double *row, const PlainVector &added)
 {
-  double *const row = &rows[3 * std::size_t(i)];
   row[0] += added.x;
   row[1] += added.y;
   row[2] += added.z;
 }
 
-static double mean_spacing(const DrivenFlow &flow)
-{
-  const auto &h = flow.flow().grid().spacing;
-  return std::cbrt(h[0] * h[1] * h[2]);
-}
-
 /* ---------------------------------------------------------------------- */
 
-GapSlip::GapSlip(LAMMPS *lmp, Fix *owner, fluid::KernelKind kernel) :
-    Pointers(lmp), owner_(owner), kernel_(kernel)
+GapSlip::GapSlip(LAMMPS *lmp, RowExchange &exchange, fluid::KernelKind kernel) :
+    Pointers(lmp), exchange_(exchange), kernel_(kernel)
 {
 }
 
@@ -47,7 +39,7 @@ const fluid::GapMobility &GapSlip::missing()
 
 double GapSlip::widest_gap(const DrivenFlow &flow)
 {
-  return missing().range() * mean_spacing(flow);
+  return missing().range() * flow.mean_spacing();
 }
 
 void GapSlip::start_run(const DrivenFlow &flow, const std::vector<CellMembranes *> &membranes,
@@ -56,7 +48,7 @@ void GapSlip::start_run(const DrivenFlow &flow, const std::vector<CellMembranes 
   contact_ = contact;
   membranes_ = membranes;
   const fluid::Grid &grid = flow.flow().grid();
-  spacing_ = mean_spacing(flow);
+  spacing_ = flow.mean_spacing();
   height_ = grid.spacing[2];
   viscosity_ = flow.settings().equations.viscosity;
   const auto holds = [&grid](fluid::PlateCondition condition) {
@@ -67,7 +59,7 @@ void GapSlip::start_run(const DrivenFlow &flow, const std::vector<CellMembranes 
   if (acts()) missing();
 }
 
-void GapSlip::find_areas()
+void GapSlip::atoms_migrated()
 {
   area_.assign(atom->nlocal, 0.0);
   for (const CellMembranes *membranes : membranes_)
@@ -85,13 +77,12 @@ void GapSlip::add(const std::vector<int> &members, const double *force, double f
   stopwatch_.start();
   if (contact_) {
     set_tractions(members, force, factor);
-    comm->forward_comm(owner_);
+    exchange_.send_to_ghosts(traction_);
     slide_near_surfaces();
-    comm->reverse_comm(owner_);
+    exchange_.add_from_ghosts(slip_);
     for (int i : members)
       if (area_[i] > 0)
-        for (int d = 0; d < 3; ++d)
-          velocity[3 * std::size_t(i) + d] += slip_[3 * std::size_t(i) + d] / area_[i];
+        for (int d = 0; d < 3; ++d) velocity[3 * std::size_t(i) + d] += slip_[i][d] / area_[i];
   }
   slide_along_plates(members, force, factor, velocity);
   stopwatch_.stop();
@@ -99,11 +90,11 @@ void GapSlip::add(const std::vector<int> &members, const double *force, double f
 
 void GapSlip::set_tractions(const std::vector<int> &members, const double *force, double factor)
 {
-  traction_.assign(3 * std::size_t(atom->nlocal + atom->nghost), 0.0);
+  traction_.assign(atom->nlocal + atom->nghost);
   for (int i : members)
     if (area_[i] > 0)
       for (int d = 0; d < 3; ++d)
-        traction_[3 * std::size_t(i) + d] = factor / area_[i] * force[3 * std::size_t(i) + d];
+        traction_[i][d] = factor / area_[i] * force[3 * std::size_t(i) + d];
 }
 
 /* ----------------------------------------------------------------------
@@ -113,7 +104,7 @@ void GapSlip::set_tractions(const std::vector<int> &members, const double *force
 
 void GapSlip::slide_near_surfaces()
 {
-  slip_.assign(traction_.size(), 0.0);
+  slip_.assign(atom->nlocal + atom->nghost);
   for (const auto &contact : contact_->near_contacts()) {
     const bool own = atom->molecule[contact.point] == atom->molecule[contact.corner[0]];
     const double gap = (own ? std::abs(contact.gap) : contact.gap) / spacing_;
@@ -125,13 +116,13 @@ void GapSlip::slide_near_surfaces()
 
 void GapSlip::slide(const rbc::VertexContact &contact, double missing)
 {
-  PlainVector difference = row(traction_.data(), contact.point);
+  PlainVector difference = vector(traction_[contact.point]);
   for (int c = 0; c < 3; ++c)
-    difference = difference - contact.weight[c] * row(traction_.data(), contact.corner[c]);
+    difference = difference - contact.weight[c] * vector(traction_[contact.corner[c]]);
   const PlainVector along = difference - dot(contact.normal, difference) * contact.normal;
   const PlainVector slip = area_[contact.point] * missing / (8 * viscosity_) * along;
-  add_to_row(slip_, contact.point, slip);
-  for (int c = 0; c < 3; ++c) add_to_row(slip_, contact.corner[c], -contact.weight[c] * slip);
+  add_to_row(slip_[contact.point], slip);
+  for (int c = 0; c < 3; ++c) add_to_row(slip_[contact.corner[c]], -contact.weight[c] * slip);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -155,31 +146,7 @@ void GapSlip::slide_along_plates(const std::vector<int> &members, const double *
 
 /* ---------------------------------------------------------------------- */
 
-int GapSlip::pack_tractions(int n, const int *list, double *buf) const
-{
-  for (int m = 0; m < n; ++m)
-    std::copy_n(traction_.data() + 3 * std::size_t(list[m]), 3, buf + 3 * std::size_t(m));
-  return 3 * n;
-}
-
-void GapSlip::unpack_tractions(int n, int first, const double *buf)
-{
-  std::copy_n(buf, 3 * std::size_t(n), traction_.data() + 3 * std::size_t(first));
-}
-
-int GapSlip::pack_slip(int n, int first, double *buf) const
-{
-  std::copy_n(slip_.data() + 3 * std::size_t(first), 3 * std::size_t(n), buf);
-  return 3 * n;
-}
-
-void GapSlip::unpack_slip(int n, const int *list, const double *buf)
-{
-  for (int m = 0; m < n; ++m)
-    for (int d = 0; d < 3; ++d) slip_[3 * std::size_t(list[m]) + d] += buf[3 * std::size_t(m) + d];
-}
-
 std::size_t GapSlip::bytes() const
 {
-  return (area_.capacity() + traction_.capacity() + slip_.capacity()) * sizeof(double);
+  return area_.capacity() * sizeof(double) + traction_.bytes() + slip_.bytes();
 }

@@ -2,6 +2,7 @@
 #define LMP_RBC_GAP_SLIP_H
 
 #include "contact/near_triangles.h"
+#include "coupling/rbc_atom_rows.h"
 #include "fluid/gap_mobility.h"
 #include "pointers.h"
 #include "support/rbc_step_part.h"
@@ -29,8 +30,7 @@ class DrivenFlow;
 /// s t / viscosity.
 class GapSlip : public StepPart, protected Pointers {
  public:
-  /// `owner` exchanges the numbers of ghosts: its pack and unpack functions call those here.
-  GapSlip(LAMMPS *lmp, class Fix *owner, fluid::KernelKind kernel);
+  GapSlip(LAMMPS *lmp, RowExchange &exchange, fluid::KernelKind kernel);
 
   /// Widest gap for which something is missing, for this spacing of the grid.
   double widest_gap(const DrivenFlow &flow);
@@ -42,18 +42,12 @@ class GapSlip : public StepPart, protected Pointers {
   /// Whether there is anything to do in this scene.
   bool acts() const { return contact_ || plates_[0].holds || plates_[1].holds; }
 
-  /// After atoms migrated.
-  void find_areas();
+  void atoms_migrated();
 
   /// Adds to `velocity` what the forces times `factor` cause, three numbers for each of this rank's
   /// atoms; `members` are those that count. Positions are those of the last evaluation of forces.
   /// Collective.
   void add(const std::vector<int> &members, const double *force, double factor, double *velocity);
-
-  int pack_tractions(int n, const int *list, double *buf) const;
-  void unpack_tractions(int n, int first, const double *buf);
-  int pack_slip(int n, int first, double *buf) const;
-  void unpack_slip(int n, const int *list, const double *buf);
 
   void report_to(const std::shared_ptr<CollectiveStop> & /*stop*/) override {}
   /// Plates alone cost next to nothing.
@@ -69,7 +63,7 @@ class GapSlip : public StepPart, protected Pointers {
     double z = 0;
   };
 
-  Fix *owner_;
+  RowExchange &exchange_;
   fluid::KernelKind kernel_;
   std::unique_ptr<const fluid::GapMobility> missing_;    ///< made where it is first needed
   const CellContact *contact_ = nullptr;
@@ -77,9 +71,9 @@ class GapSlip : public StepPart, protected Pointers {
   std::array<Plate, 2> plates_;
   double spacing_ = 1, height_ = 1;    ///< of fluid cells: mean, and along z
   double viscosity_ = 1;
-  std::vector<double> area_;        ///< of each vertex of this rank at rest; 0 for other atoms
-  std::vector<double> traction_;    ///< of all atoms here, ghosts too
-  std::vector<double> slip_;        ///< times area, of all atoms here
+  std::vector<double> area_;    ///< of each vertex of this rank at rest; 0 for other atoms
+  AtomRows traction_;
+  AtomRows slip_;    ///< times area
   rbc::Stopwatch stopwatch_;
 
   const fluid::GapMobility &missing();

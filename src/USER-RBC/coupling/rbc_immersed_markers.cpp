@@ -8,6 +8,7 @@
 #include "coupling/rbc_driven_flow.h"
 #include "coupling/rbc_gap_slip.h"
 #include "coupling/rbc_massive_markers.h"
+#include "coupling/rbc_traction_filter.h"
 #include "dihedral.h"
 #include "domain.h"
 #include "force.h"
@@ -154,11 +155,15 @@ void ImmersedMarkers::velocities_of_flow(Stage stage)
     masses_->couple(*this, *flow_);
   else {
     flow_->clear_force();
-    const int outside = flow_->spread(set(), rows(atom->f), force->ftm2v);
+    const double factor = force->ftm2v;
+    const int outside = filter_
+                            ? flow_->spread(set(), filter_->smooth_forces(rows(atom->f), factor), 1)
+                            : flow_->spread(set(), rows(atom->f), factor);
     if (outside >= 0) report_outside(outside);
     flow_->solve(*stop_, !estimating_spectrum_);
     flow_->interpolate(set(), rows(atom->v));
-    if (gaps_) gaps_->add(members_, rows(atom->f), force->ftm2v, rows(atom->v));
+    if (filter_) filter_->smooth_velocities(rows(atom->v));
+    if (gaps_) gaps_->add(members_, rows(atom->f), factor, rows(atom->v));
   }
   constrain_volume(stage);
 }
@@ -190,8 +195,10 @@ void ImmersedMarkers::apply_mobility(double factor, Numbers &response)
   response.resize(all);
   for (int i : members_)
     for (int d = 0; d < 3; ++d) applied_[3 * std::size_t(i) + d] = factor * atom->f[i][d];
-  const int outside = flow_->apply_mobility(set(), applied_.data(), response.data());
+  const double *const felt = filter_ ? filter_->smooth_forces(applied_.data(), 1) : applied_.data();
+  const int outside = flow_->apply_mobility(set(), felt, response.data());
   if (outside >= 0) report_outside(outside);
+  if (filter_) filter_->smooth_velocities(response.data());
   if (gaps_) gaps_->add(members_, applied_.data(), 1, response.data());
 }
 

@@ -15,6 +15,7 @@ namespace LAMMPS_NS {
 class CellMembranes;
 class DrivenFlow;
 class GapSlip;
+class TractionFilter;
 class MassiveMarkers;
 
 /// The atoms of a group as markers of a flow. Their velocity is a function of positions and time:
@@ -45,6 +46,9 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
   /// Lets surfaces slide in gaps narrower than the grid; null: they do as the grid lets them. Set
   /// at the start of a run.
   void set_gap_slip(GapSlip *gaps) { gaps_ = gaps; }
+
+  /// Smooths the tractions of membranes; null: of none. Set at the start of a run.
+  void set_traction_filter(TractionFilter *filter) { filter_ = filter; }
 
   /// Collects errors of this fix, its membranes and pair styles; its check() ends the run or
   /// rejects the step.
@@ -145,6 +149,7 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
   ImplicitViscosity viscosity_;
   MassiveMarkers *masses_ = nullptr;
   GapSlip *gaps_ = nullptr;
+  TractionFilter *filter_ = nullptr;
   std::shared_ptr<CollectiveStop> stop_;
   rbc::Stopwatch exchanging_;
   bool estimating_spectrum_ = false, any_speed_between_steps_ = false;

@@ -1,0 +1,222 @@
+#include "coupling/rbc_traction_filter.h"
+
+#include "atom.h"
+#include "cells/rbc_cell_membranes.h"
+#include "coupling/rbc_driven_flow.h"
+
+#include <algorithm>
+#include <utility>
+
+using namespace LAMMPS_NS;
+
+// Tractions whose wavenumber times dx is above this are halved or more: kernels spread little of
+// them.
+
+static constexpr double RESOLVED = 2.0;
+
+// how far rough tractions move vertices: no more than the grid would, so that timesteps stay as
+// they are
+
+static constexpr double SLIP = 0.03;
+
+static constexpr int MODES = rbc::SurfaceFilter::modes;
+static constexpr int PARTS = 3 * MODES;
+
+/* ---------------------------------------------------------------------- */
+
+TractionFilter::TractionFilter(LAMMPS *lmp, RowExchange &exchange) :
+    Pointers(lmp), exchange_(exchange)
+{
+}
+
+void TractionFilter::start_run(const DrivenFlow &flow,
+                               const std::vector<CellMembranes *> &membranes)
+{
+  slip_ = SLIP * flow.mean_spacing() / flow.settings().equations.viscosity;
+  kinds_.clear();
+  int largest = 0;
+  for (CellMembranes *cells : membranes)
+    if (cells->is_smoothed()) {
+      kinds_.push_back({cells, {cells->shape(), RESOLVED / flow.mean_spacing()}, {}, {}});
+      largest = std::max(largest, cells->shape().vertex_count());
+    }
+  cell_.assign(largest, Row::Zero());
+  scratch_.assign(largest, Row::Zero());
+}
+
+/* ----------------------------------------------------------------------
+   function(v, i) for each vertex v of a cell that is an atom i of this rank
+------------------------------------------------------------------------- */
+
+template <class Function>
+void TractionFilter::for_owned(const LocalCells::Cell &cell, int vertices, Function function) const
+{
+  const int owned = atom->nlocal;
+  for (int v = 0; v < vertices; ++v)
+    if (const int i = cell.atom[v]; i >= 0 && i < owned) function(v, i);
+}
+
+template <class Function> void TractionFilter::for_vertices(const Kind &kind, Function f) const
+{
+  for (const LocalCells::Cell &cell : kind.membranes->local_cells().cells())
+    for_owned(cell, kind.filter.vertex_count(), f);
+}
+
+/* ----------------------------------------------------------------------
+   function(c, v, i), with the number c of the cell here, for the cells that other ranks have a part
+   of, too
+------------------------------------------------------------------------- */
+
+template <class Function>
+void TractionFilter::for_shared_vertices(const Kind &kind, Function function) const
+{
+  const auto &cells = kind.membranes->local_cells().cells();
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    if (cells[c].shared >= 0)
+      for_owned(cells[c], kind.filter.vertex_count(), [&](int v, int i) { function(c, v, i); });
+}
+
+/* ---------------------------------------------------------------------- */
+
+void TractionFilter::filter()
+{
+  bool shared = false;
+  for (const Kind &kind : kinds_) {
+    filter_whole_cells(kind);
+    shared = shared || kind.membranes->local_cells().has_shared();
+  }
+  if (shared) filter_shared_cells();
+}
+
+void TractionFilter::filter_whole_cells(const Kind &kind)
+{
+  const int vertices = kind.filter.vertex_count();
+  for (const LocalCells::Cell &cell : kind.membranes->local_cells().cells()) {
+    if (cell.shared >= 0) continue;
+    for (int v = 0; v < vertices; ++v) {
+      const double *const row = smooth_[cell.atom[v]];
+      cell_[v] = {row[0], row[1], row[2], 0};
+    }
+    kind.filter.apply(cell_, scratch_);
+    for (int v = 0; v < vertices; ++v) std::copy_n(cell_[v].data(), 3, smooth_[cell.atom[v]]);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   each pass needs the neighbors of vertices, which may be ghosts
+------------------------------------------------------------------------- */
+
+void TractionFilter::filter_shared_cells()
+{
+  int passes = 0;
+  for (Kind &kind : kinds_) {
+    take_linear(kind, kind.kept);
+    passes = std::max(passes, kind.filter.passes());
+  }
+  for (int number = 0; number < passes; ++number) {
+    exchange_.send_to_ghosts(smooth_);
+    for (const Kind &kind : kinds_) {
+      if (number >= kind.filter.passes()) continue;
+      const auto &cells = kind.membranes->local_cells().cells();
+      for_shared_vertices(kind, [&](std::size_t c, int v, int i) {
+        const auto value = [&](int w) -> Row {
+          const double *const row = smooth_[cells[c].atom[w]];
+          return {row[0], row[1], row[2], 0};
+        };
+        const Row after = kind.filter.pass(number, v, value);
+        std::copy_n(after.data(), 3, next_[i]);
+      });
+      for_shared_vertices(
+          kind, [&](std::size_t /*c*/, int /*v*/, int i) { std::copy_n(next_[i], 3, smooth_[i]); });
+    }
+  }
+  for (Kind &kind : kinds_) {
+    take_linear(kind, kind.lost);
+    add_linear(kind, kind.kept, 1);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   Takes from smooth_ its linear part, which `parts` becomes: for each cell here and each mode of
+   the filter three numbers.
+------------------------------------------------------------------------- */
+
+void TractionFilter::take_linear(Kind &kind, std::vector<double> &parts)
+{
+  LocalCells &cells = kind.membranes->local_cells();
+  parts.assign(PARTS * cells.cells().size(), 0.0);
+  for_shared_vertices(kind, [&](std::size_t c, int v, int i) {
+    for (int m = 0; m < MODES; ++m)
+      for (int d = 0; d < 3; ++d)
+        parts[PARTS * c + 3 * m + d] +=
+            kind.filter.area(v) * kind.filter.linear(v)[m] * smooth_[i][d];
+  });
+  cells.sum_shared(parts, PARTS);
+  add_linear(kind, parts, -1);
+}
+
+void TractionFilter::add_linear(const Kind &kind, const std::vector<double> &parts, double factor)
+{
+  for_shared_vertices(kind, [&](std::size_t c, int v, int i) {
+    for (int m = 0; m < MODES; ++m)
+      for (int d = 0; d < 3; ++d)
+        smooth_[i][d] += factor * kind.filter.linear(v)[m] * parts[PARTS * c + 3 * m + d];
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
+const double *TractionFilter::smooth_forces(const double *force, double factor)
+{
+  stopwatch_.start();
+  const int all = atom->nlocal + atom->nghost;
+  for (AtomRows *rows : {&force_, &rough_, &smooth_, &next_}) rows->assign(all);
+  for (int i = 0; i < atom->nlocal; ++i)
+    for (int d = 0; d < 3; ++d) force_[i][d] = factor * force[3 * std::size_t(i) + d];
+  for (const Kind &kind : kinds_)
+    for_vertices(kind, [&](int v, int i) {
+      for (int d = 0; d < 3; ++d) smooth_[i][d] = rough_[i][d] = force_[i][d] / kind.filter.area(v);
+    });
+  filter();
+  for (const Kind &kind : kinds_)
+    for_vertices(kind, [&](int v, int i) {
+      for (int d = 0; d < 3; ++d) {
+        rough_[i][d] -= smooth_[i][d];
+        force_[i][d] = kind.filter.area(v) * smooth_[i][d];
+      }
+    });
+  stopwatch_.stop();
+  return force_[0];
+}
+
+/* ----------------------------------------------------------------------
+   P u + slip (1 - P) t' = P (u - slip t') + slip t', with t' = (1 - P) t
+------------------------------------------------------------------------- */
+
+void TractionFilter::smooth_velocities(double *velocity)
+{
+  stopwatch_.start();
+  for (const Kind &kind : kinds_)
+    for_vertices(kind, [&](int /*v*/, int i) {
+      for (int d = 0; d < 3; ++d)
+        smooth_[i][d] = velocity[3 * std::size_t(i) + d] - slip_ * rough_[i][d];
+    });
+  filter();
+  for (const Kind &kind : kinds_)
+    for_vertices(kind, [&](int /*v*/, int i) {
+      for (int d = 0; d < 3; ++d)
+        velocity[3 * std::size_t(i) + d] = smooth_[i][d] + slip_ * rough_[i][d];
+    });
+  stopwatch_.stop();
+}
+
+/* ---------------------------------------------------------------------- */
+
+std::size_t TractionFilter::bytes() const
+{
+  std::size_t bytes = force_.bytes() + rough_.bytes() + smooth_.bytes() + next_.bytes() +
+                      (cell_.capacity() + scratch_.capacity()) * sizeof(Row);
+  for (const Kind &kind : kinds_)
+    bytes += kind.filter.bytes() + (kind.kept.capacity() + kind.lost.capacity()) * sizeof(double);
+  return bytes;
+}

@@ -1,0 +1,107 @@
+"""fix rbc/membrane smooth: what the tractions of membranes vary within the grid's cells is taken out."""
+
+import unittest
+
+import numpy as np
+
+from lammps_case import POTENTIALS, SHEAR, attempt, in_parallel, make_template, read_template, run, scene
+
+RATE, DIAMETER, ASPECT = 1e-3, 2.4, 1 / 3
+COUNT = len(read_template(POTENTIALS / "rbc_162.mol")[0])
+
+
+def turning(tilt, smooth):
+    """Strain rate over which a stiff spheroid turns whose axis is `tilt` degrees from the gradient: its angles and
+    rates at six fluid cells a diameter."""
+    speed = RATE * 6
+    result = run(scene(
+        box="region box block 0 12 0 10 0 12", molecule="molecule body ../body.mol",
+        cells=f"rbc/create body single 6.03 5.06 6.09 rotate {tilt} 0 1 0",
+        neighbor="neighbor 0.4 bin", membrane=f"fix mem all rbc/membrane body skalak 1.0 10 bending 4.0e-2 smooth {smooth}",
+        fluid=f"fix flow all rbc/fluid dx 0.4 viscosity 1.5 density 1.025 wall zlo {-speed} 0 0 wall zhi {speed} 0 0",
+        ib="fix ib all rbc/ib flow integrator rkc auto", compute="compute c all rbc/cell",
+        thermo="thermo_style custom step c_c[1][14] c_c[1][16]", every="thermo 2", timestep="timestep 50", run="run 16"))
+    angle = np.unwrap(2 * np.arctan2(result.thermo["c_c[1][14]"], result.thermo["c_c[1][16]"])) / 2
+    strain = result.thermo["Step"] * 50 * RATE
+    settled = strain > 0.2
+    return angle[settled], abs(np.gradient(angle, strain))[settled]
+
+
+def jeffery(angle):
+    """Rate of turning of the axis over the shear rate."""
+    return (ASPECT**2 * np.cos(angle)**2 + np.sin(angle)**2) / (1 + ASPECT**2)
+
+
+class StiffSpheroid(unittest.TestCase):
+    def test_turns_as_jeffery_says(self):
+        # the polyhedron is thicker, and a little smaller, than the spheroid: 0.345
+        make_template("spheroid", "--diameter", DIAMETER, "--axis-ratio", ASPECT, "--frequency", 3, "--output", "body.mol")
+        cases = [(0, "yes"), (90, "yes"), (0, "no")]
+        for (tilt, smooth), (angle, rate) in zip(cases, in_parallel(turning, cases)):
+            off = np.mean(rate - jeffery(angle))
+            print(f"\nsmooth {smooth}, axis {tilt} degrees from the gradient: rate {rate.mean():.4f}, Jeffery {off:+.4f}")
+            if smooth == "yes":
+                self.assertLess(abs(off), 0.004)
+            else:
+                self.assertGreater(abs(off), 0.02)
+
+
+def velocities(forces, smooth="yes", ranks=1, ib=""):
+    """Of all vertices of a cell whose membrane exerts no forces."""
+    columns = {f"f{axis}": forces[:, d] for d, axis in enumerate("xyz")}
+    before = [f"variable {name} atomfile {name}.txt" for name in columns]
+    before.append("fix push all addforce v_fx v_fy v_fz")
+    files = {f"{name}.txt": f"{len(column)}\n" + "".join(f"{n + 1} {value!r}\n" for n, value in enumerate(column.tolist()))
+             for name, column in columns.items()}
+    dump = "dump atoms all custom 1 atoms.dump id x y z vx vy vz\ndump_modify atoms sort id format float %.17g"
+    result = run(scene(boundary="boundary p p p", membrane="fix mem all rbc/membrane rbc neo-hookean 1e-30 volume no"
+                       f" smooth {smooth}", before="\n".join(before),
+                       fluid="fix flow all rbc/fluid dx 1 viscosity 1.5 density 1.025", thermo="",
+                       ib="fix ib all rbc/ib flow integrator midpoint" + ib,
+                       timestep="timestep 1e-3", dump=dump), ranks, files=files)
+    return result.dump()("vx", "vy", "vz")
+
+
+def random_forces(seed):
+    return np.random.default_rng(seed).normal(size=(COUNT, 3))
+
+
+class Mobility(unittest.TestCase):
+    def test_is_symmetric_and_positive(self):
+        f, g = random_forces(2), random_forces(3)
+        by_f, by_g = in_parallel(velocities, [(f,), (g,)])
+        scale = abs(f * by_f).sum()
+        self.assertLess(abs((g * by_f).sum() - (f * by_g).sum()) / scale, 1e-12)
+        self.assertGreater((f * by_f).sum(), 0.001 * scale)
+
+    def test_is_the_same_on_any_ranks(self):
+        forces = random_forces(4)
+        one, *others = in_parallel(velocities, [(forces, "yes", ranks) for ranks in (1, 2, 3, 4)])
+        for other in others:
+            self.assertLess(abs(other - one).max() / abs(one).max(), 1e-11)
+
+    def test_rough_forces_move_less_and_smooth_ones_the_same(self):
+        x, triangles = read_template(POTENTIALS / "rbc_162.mol")
+        areas = np.zeros(COUNT)
+        for corner in triangles:
+            area = np.linalg.norm(np.cross(x[corner[1]] - x[corner[0]], x[corner[2]] - x[corner[0]])) / 2
+            areas[corner] += area / 3
+        smooth = areas[:, None] * np.column_stack([1 + 0.2 * x[:, 2], -0.3 * x[:, 0], 0.1 * x[:, 1]])
+        rough = random_forces(5)
+        for forces, low, high in ((smooth, 0, 0.03), (rough, 0.3, 1)):
+            yes, no = in_parallel(velocities, [(forces, "yes"), (forces, "no")])
+            change = np.linalg.norm(yes - no) / np.linalg.norm(no)
+            print(f"\nvelocities change by {change:.4f}")
+            self.assertGreater(change, low)
+            self.assertLess(change, high)
+
+
+class Errors(unittest.TestCase):
+    def test_points_have_no_tractions(self):
+        smooth = SHEAR["membrane"] + " smooth yes"
+        message = "Fix rbc/membrane smooth yes needs fix rbc/ib ib with sheets yes and scheme elastic"
+        self.assertIn(message, attempt(scene(membrane=smooth, ib=SHEAR["ib"] + " sheets no")).error)
+        self.assertIn("Expected boolean parameter instead of 'maybe'",
+                      attempt(scene(membrane=SHEAR["membrane"] + " smooth maybe")).error)
+        part = "group some id 1:100\nfix ib some rbc/ib flow integrator midpoint"
+        self.assertTrue(attempt(scene(membrane=smooth, ib=part)).error)
