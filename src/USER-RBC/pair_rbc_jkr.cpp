@@ -28,7 +28,9 @@ static constexpr double OWN_PATCH = 2.5;
 PairRBCJKR::PairRBCJKR(LAMMPS *lmp) :
     Pair(lmp), coefficients(std::make_unique<ContactCoefficients>(lmp)),
     surfaces(std::make_unique<NearSurfaces>(lmp, "Pair rbc/jkr")),
-    boundaries(std::make_unique<BoundaryContact>(lmp, "Pair rbc/jkr"))
+    boundaries(std::make_unique<BoundaryContact>(lmp, "Pair rbc/jkr")),
+    crossing(std::make_unique<CellCrossings>(
+        lmp, "Pair rbc/jkr", *surfaces, [this](int i, int j) { return contact_range(i, j) > 0; }))
 {
   writedata = 0;
   reinitflag = 1;
@@ -439,6 +441,6 @@ void PairRBCJKR::read_restart_settings(FILE *fp)
 
 double PairRBCJKR::memory_usage()
 {
-  return Pair::memory_usage() + surfaces->bytes() + boundaries->bytes() +
+  return Pair::memory_usage() + surfaces->bytes() + boundaries->bytes() + crossing->bytes() +
          reactions.capacity() * sizeof(double);
 }

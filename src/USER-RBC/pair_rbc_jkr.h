@@ -8,6 +8,7 @@ PairStyle(rbc/jkr,PairRBCJKR);
 #define LMP_PAIR_RBC_JKR_H
 
 #include "cells/rbc_cell_contact.h"
+#include "cells/rbc_cell_crossings.h"
 #include "cells/rbc_contact_settings.h"
 #include "contact/contact_laws.h"
 #include "contact/near_triangles.h"
@@ -31,6 +32,7 @@ class PairRBCJKR : public Pair, public StepPart, public CellContact {
   void init_style() override;
   double init_one(int, int) override;
   void setup() override;
+  void finish() override { crossing->tell(); }
   double single(int, int, int, int, double, double, double, double &) override;
   void *extract(const char *, int &) override;
   void write_restart(FILE *) override;
@@ -45,11 +47,14 @@ class PairRBCJKR : public Pair, public StepPart, public CellContact {
   const std::vector<rbc::VertexContact> &near_contacts() const override;
   double own_gap() const override { return given.self ? cutoff : 0; }
   std::string repelling_boundaries(int) const override;
+  CellCrossings *crossings() override { return range > 0 ? crossing.get() : nullptr; }
 
   void report_to(const std::shared_ptr<CollectiveStop> &) override;
   std::vector<Section> sections() override
   {
-    return {{"Detection", &finding}, {"Contact", &interacting}};
+    std::vector<Section> all = {{"Detection", &finding}, {"Contact", &interacting}};
+    if (crossings()) all.push_back({"Crossings", &crossing->stopwatch()});
+    return all;
   }
 
  private:
@@ -71,6 +76,7 @@ class PairRBCJKR : public Pair, public StepPart, public CellContact {
   std::unique_ptr<class ContactCoefficients> coefficients;
   std::unique_ptr<class NearSurfaces> surfaces;
   std::unique_ptr<class BoundaryContact> boundaries;
+  std::unique_ptr<CellCrossings> crossing;
   std::vector<TypePair> type_pairs;
   double range = 0;         // largest of them
   double widest_gap = 0;    // up to which fixes want to know of surfaces

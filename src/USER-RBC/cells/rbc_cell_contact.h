@@ -26,6 +26,10 @@ class CellContact {
   /// What else repels cells of an atom type, in words: plates, walls. Empty if nothing does.
   virtual std::string repelling_boundaries(int itype) const = 0;
 
+  /// Whether surfaces that act on each other pass through each other in a step; null if none do.
+  /// Known from setup() on.
+  virtual class CellCrossings *crossings() = 0;
+
  protected:
   ~CellContact() = default;
 };

@@ -140,6 +140,7 @@ double NearSurfaces::longest_known_edge(double range, double slack) const
 
 void NearSurfaces::build(double range, double slack_of_ghosts, double stale)
 {
+  ++build_count;
   allowed = slack_of_ghosts / 2;
   built.hold(atom->x[0], atom->nlocal + atom->nghost);
   cell_at.resize(atom->nlocal + atom->nghost);
@@ -220,26 +221,25 @@ bool NearSurfaces::are_near(int i, int j, double longest) const
 
 const std::vector<NearSurfaces::Contact> &NearSurfaces::contacts(double range)
 {
-  check_moved();
+  report_moved(*stop);
+  stop->check();
   return finder.contacts(atom->x[0], range);
 }
 
-void NearSurfaces::check_moved()
+void NearSurfaces::report_moved(CollectiveStop &to) const
 {
   const double moved = built.largest_displacement(atom->x[0]);
-  if (!(moved <= allowed)) {
-    const int i = built.furthest_moved(atom->x[0]);
-    const double *const x = atom->x[i];
-    stop->report(
-        fmt::format("{}: vertices moved by up to {:.4g} since step {}, when their neighbors were "
-                    "found, more than {:.6g}, at step {}: cell with molecule ID {} near ({:.6g}, "
-                    "{:.6g}, {:.6g}); raise the skin with the neighbor command, or lower the "
-                    "timestep",
-                    style, moved, neighbor->lastcall, allowed, update->ntimestep, atom->molecule[i],
-                    x[0], x[1], x[2]),
-        Flaw::unseen_motion);
-  }
-  stop->check();
+  if (moved <= allowed) return;
+  const int i = built.furthest_moved(atom->x[0]);
+  const double *const x = atom->x[i];
+  to.report(
+      fmt::format("{}: vertices moved by up to {:.4g} since step {}, when their neighbors were "
+                  "found, more than {:.6g}, at step {}: cell with molecule ID {} near ({:.6g}, "
+                  "{:.6g}, {:.6g}); raise the skin with the neighbor command, or lower the "
+                  "timestep",
+                  style, moved, neighbor->lastcall, allowed, update->ntimestep, atom->molecule[i],
+                  x[0], x[1], x[2]),
+      Flaw::unseen_motion);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -51,6 +51,23 @@ class NearSurfaces : protected Pointers {
   /// What contacts() returned last.
   const std::vector<Contact> &last_contacts() const { return finder.last_contacts(); }
 
+  /// How often build() was called: what follows is that of the last time.
+  bigint builds() const { return build_count; }
+
+  /// All triangles of which this rank has all corners, each periodic image once.
+  const std::vector<rbc::NearTriangles::Triangle> &known_triangles() const { return triangles; }
+
+  /// How far an atom may have moved since build(), and a report to `stop` if one has moved further.
+  /// Not collective.
+  double allowed_displacement() const { return allowed; }
+  void report_moved(CollectiveStop &to) const;
+
+  bool see_own_cells() const { return own_patch > 0; }
+
+  /// Whether a vertex sees a triangle of its own cell, given by its place in known_triangles().
+  /// Only where vertices see their own cells.
+  bool sees_own(int i, int triangle) const;
+
   bool is_vertex(int i) const { return cell_of(i) != nullptr; }
 
   /// Molecule ID of the first cell whose vertices are of more than one atom type, or 0. Collective.
@@ -90,13 +107,12 @@ class NearSurfaces : protected Pointers {
   rbc::HeldPositions built;                              ///< positions at build()
   double own_patch = 0;                                  ///< 0: vertices do not see their own cells
   double allowed = 0;                                    ///< displacement of an atom since build()
+  bigint build_count = 0;
 
   const Cell *cell_of(int i) const;
   double longest_known_edge(double range, double slack) const;
   void collect_triangles(double longest);
-  bool sees_own(int i, int triangle) const;
   std::vector<std::vector<int>> own_patches(const rbc::SurfaceTemplate &surface) const;
-  void check_moved();
   int image_near(int i, tagint id, double longest) const;
   bool are_near(int i, int j, double longest) const;
 };

@@ -1,6 +1,8 @@
 #include "coupling/rbc_time_steps.h"
 
 #include "atom.h"
+#include "cells/rbc_cell_contact.h"
+#include "cells/rbc_cell_crossings.h"
 #include "cells/rbc_cell_membranes.h"
 #include "error.h"
 #include "fix.h"
@@ -106,6 +108,9 @@ void TimeSteps::atoms_migrated()
 void TimeSteps::setup()
 {
   using Stage = ImmersedMarkers::Stage;
+  CellContact *const contact = find_cell_contact(force);
+  crossings_ = contact ? contact->crossings() : nullptr;
+  if (crossings_) crossings_->start_run();
   if (flow_->has_inertia()) {
     markers_.check_velocities(Stage::start);
     return;
@@ -181,6 +186,7 @@ void TimeSteps::advance()
   choose_timestep();
   markers_.load(atom->x, X_);
   markers_.load(atom->v, V_);
+  if (crossings_) crossings_->start_step();
   tries_ = 0;
   seen_.clear();
   do flow_->begin_step(tries_++ > 0);
@@ -240,6 +246,7 @@ bool TimeSteps::step_is_accepted()
 
   ++rejected_;
   if (!went_well) ++failed_;
+  if (!went_well && seen_.back() == Flaw::crossed) crossings_->count_retaken();
   if (control_.active()) {
     if (next_dt_ < control_.smallest) stop_adapting(!went_well);
     set_timestep(next_dt_, step() - 1);
@@ -305,6 +312,7 @@ void TimeSteps::check_result()
   markers_.store(X_new_, atom->x);
   markers_.check_positions();
   if (tries_ > 1) markers_.check_displacements(X_, X_new_);    // parts allow more
+  if (crossings_) crossings_->report(*markers_.stop());
   markers_.stop()->check();
   if (!integrator_->can_retake()) return;
   if (integrator_->has_grown())
@@ -319,6 +327,8 @@ void TimeSteps::check_result()
 
 void TimeSteps::measure_error()
 {
+  markers_.store(X_new_, atom->x);
+  if (crossings_) crossings_->report(*markers_.stop());
   V_new_ = V_;
   markers_.velocity(X_new_, 1.0, V_new_);
   velocities_known_ = true;

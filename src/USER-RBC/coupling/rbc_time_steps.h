@@ -13,6 +13,8 @@
 
 namespace LAMMPS_NS {
 
+class CellCrossings;
+
 /// Time steps of markers and flow: an integrator, the choice of the timestep, and LAMMPS's clock.
 /// All calls are collective.
 class TimeSteps : protected Pointers {
@@ -69,6 +71,7 @@ class TimeSteps : protected Pointers {
   std::string style_;
   ImmersedMarkers &markers_;
   DrivenFlow *flow_ = nullptr;
+  CellCrossings *crossings_ = nullptr;    ///< null where surfaces of cells do not act on each other
   std::unique_ptr<rbc::Integrator> integrator_;
   AtomStore store_;
   rbc::StepControl control_;

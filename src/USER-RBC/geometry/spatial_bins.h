@@ -44,6 +44,18 @@ class SpatialBins {
   }
   int of(PlainVector x) const { return index(along(0, x.x), along(1, x.y), along(2, x.z)); }
 
+  /// Calls f(first, last), the indices of neighbors along x, for a bin and half of the bins around
+  /// it, so that each pair of neighbors comes once. The first row begins with the bin itself.
+  template <typename Function> void visit_half(int i, int j, int k, const Function &f) const
+  {
+    const int last = std::min(i + 1, count_[0] - 1), first = std::max(i - 1, 0);
+    f(index(i, j, k), index(last, j, k));
+    if (j + 1 < count_[1]) f(index(first, j + 1, k), index(last, j + 1, k));
+    if (k + 1 == count_[2]) return;
+    for (int m = std::max(j - 1, 0); m <= std::min(j + 1, count_[1] - 1); ++m)
+      f(index(first, m, k + 1), index(last, m, k + 1));
+  }
+
   /// Distance along a direction to the bins numbered n there; those at the rim have no end.
   double distance(int d, int n, double x) const
   {

@@ -19,7 +19,8 @@ enum class Remedy {
   mesh,
   cutoff,
   skin,
-  repel
+  repel,
+  firm
 };
 
 /// In the order in which they are likely to help.
@@ -41,6 +42,8 @@ std::vector<Remedy> against(Flaw flaw)
       return {Remedy::skin, Remedy::stages, Remedy::adapt, Remedy::timestep};
     case Flaw::through_plate:
       return {Remedy::repel, Remedy::stages, Remedy::adapt, Remedy::timestep};
+    case Flaw::crossed:
+      return {Remedy::firm, Remedy::stages, Remedy::adapt, Remedy::timestep, Remedy::mesh};
     case Flaw::unseen_motion:
       return {Remedy::skin, Remedy::adapt, Remedy::timestep};
     case Flaw::other:
@@ -99,6 +102,8 @@ std::string text(Remedy remedy, const Situation &now)
     case Remedy::repel:
       return "a force that holds cells off plates and walls (plates yes of pair_style rbc/jkr); "
              "cells that start further from them";
+    case Remedy::firm:
+      return "a stronger repulsion of surfaces, or one of a longer range (pair_coeff of rbc/jkr)";
   }
   return {};
 }

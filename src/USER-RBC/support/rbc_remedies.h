@@ -15,6 +15,7 @@ enum class Flaw {
   stretched,        ///< an edge is longer than what the ghost atoms cover
   left_fluid,       ///< a vertex left the ghost layers of the fluid
   through_plate,    ///< a vertex is beyond a plate
+  crossed,          ///< surfaces of cells passed through each other
   unseen_motion,    ///< vertices moved further than their list of neighbors allows
   other
 };

@@ -1,0 +1,341 @@
+#include "contact/crossing_finder.h"
+
+#include "geometry/triangle_distance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace rbc {
+
+namespace {
+
+constexpr double TOUCHING = 1e-5;    // of the size of fans: distance of triangles that touch
+
+// A list that does not hold for a step is made anew for this much more than it lacked.
+
+constexpr double WIDER = 1.25;
+
+// Part of the reach: no better line is looked for where two fans are that far apart.
+
+constexpr double WIDE = 0.25;
+
+constexpr double UNKNOWN = -std::numeric_limits<double>::infinity();
+
+PlainVector at(const double *x, int n)
+{
+  return {x[3 * std::size_t(n)], x[3 * std::size_t(n) + 1], x[3 * std::size_t(n) + 2]};
+}
+
+/// Where points are along a line.
+struct Span {
+  double lowest = std::numeric_limits<double>::max(), highest = -lowest;
+
+  template <typename Points> Span(const double *x, const Points &points, PlainVector line)
+  {
+    for (int n : points) {
+      const double along = dot(line, at(x, n));
+      lowest = std::min(lowest, along);
+      highest = std::max(highest, along);
+    }
+  }
+};
+
+/// How far the one is beyond the other along a line, negative if it is not.
+template <typename Points>
+double gap(const double *x, const Points &above, const Points &below, PlainVector line)
+{
+  return Span(x, above, line).lowest - Span(x, below, line).highest;
+}
+
+PlainVector unit(PlainVector v)
+{
+  const double length = norm(v);
+  return length > 0 ? (1 / length) * v : PlainVector{1, 0, 0};
+}
+
+PlainVector twice_area(const double *x, const CrossingFinder::Triangle &triangle)
+{
+  const PlainVector a = at(x, triangle.corner[0]);
+  return cross(at(x, triangle.corner[1]) - a, at(x, triangle.corner[2]) - a);
+}
+
+std::array<PlainVector, 3> places(const double *x, const CrossingFinder::Triangle &triangle)
+{
+  return {at(x, triangle.corner[0]), at(x, triangle.corner[1]), at(x, triangle.corner[2])};
+}
+
+bool share_corner(const CrossingFinder::Triangle &first, const CrossingFinder::Triangle &second)
+{
+  for (int v : first.corner)
+    for (int w : second.corner)
+      if (v == w) return true;
+  return false;
+}
+
+}    // namespace
+
+CrossingFinder::Corners CrossingFinder::corners(int body, bool fan) const
+{
+  if (!fan) {
+    const auto &corner = scene_.triangles[body].corner;
+    return {corner.data(), corner.data() + corner.size()};
+  }
+  const NumberLists &all = near_.fans().corners;
+  return {&all.number[all.begin[body]], all.number.data() + all.begin[body + 1]};
+}
+
+bool CrossingFinder::is_owned(int triangle) const
+{
+  const auto &corner = scene_.triangles[triangle].corner;
+  return *std::min_element(corner.begin(), corner.end()) < scene_.owned;
+}
+
+void CrossingFinder::build(Scene scene)
+{
+  scene_ = std::move(scene);
+  current_ = false;
+  near_.build(scene_.triangles, scene_.points, scene_.owned, scene_.own_surfaces);
+}
+
+/* ----------------------------------------------------------------------
+   Mostly a step starts where the last one that was tested has ended.
+------------------------------------------------------------------------- */
+
+void CrossingFinder::start(const double *x)
+{
+  const std::size_t size = 3 * std::size_t(scene_.points);
+  if (end_.size() == size && std::equal(end_.begin(), end_.end(), x)) {
+    start_.swap(end_);
+    return;
+  }
+  current_ = current_ && start_.size() == size && std::equal(start_.begin(), start_.end(), x);
+  start_.assign(x, x + size);
+}
+
+CrossingFinder::Outcome CrossingFinder::find(const double *x)
+{
+  ++counts_.steps;
+  end_.assign(x, x + 3 * std::size_t(scene_.points));
+  if (!current_) list(start_.data(), scene_.margin);
+  double needed = needed_reach(x);
+  if (needed >= reach_) {
+    list(start_.data(), scene_.margin);
+    needed = needed_reach(x);
+  }
+  while (needed >= reach_) {
+    current_ = false;
+    if (!(needed < scene_.furthest)) return {false, {}};
+    list(start_.data(), WIDER * needed);
+    needed = needed_reach(x);
+  }
+  std::optional<Pair> found;
+  for (std::size_t n = 0; n < listed_.size(); ++n) {
+    if (stay_apart(listed_[n], x)) continue;
+    if (!listed_[n].fans) {
+      if (triangles_touched(listed_[n], x)) found = listed_[n].pair;
+      continue;
+    }
+    const Pair fans = listed_[n].pair;
+    listed_[n--] = listed_.back();
+    listed_.pop_back();
+    const std::size_t before = listed_.size();
+    split(start_.data(), fans, 2 * reach_);
+    for (std::size_t m = before; m < listed_.size(); ++m) listed_[m].gap = UNKNOWN;
+  }
+  return {true, found};
+}
+
+bool CrossingFinder::stay_apart(const Listed &listed, const double *x)
+{
+  if (!listed.apart) return false;
+  if (motion_.around(listed.fan) < listed.gap) return true;
+  if (listed.fans && motion_.along(listed.pair.first, listed.line).lowest -
+                             motion_.along(listed.pair.second, listed.line).highest >
+                         -listed.gap)
+    return true;
+  ++counts_.lines;
+  return gap(x, corners(listed.pair.first, listed.fans), corners(listed.pair.second, listed.fans),
+             listed.line) > 0;
+}
+
+/* ----------------------------------------------------------------------
+   Returns the reach of a list that holds until corners are at `x`. A pair that is not listed was
+   apart by more than the reach; by more than twice that if its fans were no neighbors; by more than
+   four times that and two radii if they were not even neighbors of neighbors.
+------------------------------------------------------------------------- */
+
+double CrossingFinder::needed_reach(const double *x)
+{
+  const NeighborMotion::Differences moved = motion_.differences(x);
+  return std::max({moved.near, moved.wider / 2, (moved.all - 2 * radius_) / 4});
+}
+
+/* ----------------------------------------------------------------------
+   Afterwards `apart` holds at the end of the step. The new line was not looked at when listed.
+------------------------------------------------------------------------- */
+
+bool CrossingFinder::triangles_touched(Listed &listed, const double *x)
+{
+  ++counts_.searches;
+  const double *const from = start_.data();
+  const auto [first, second] = listed.pair;
+  const auto first_start = places(from, scene_.triangles[first]),
+             second_start = places(from, scene_.triangles[second]);
+  const Corners a = corners(first, false), b = corners(second, false);
+  listed.line = unit(line_between(first_start, second_start));
+  listed.gap = UNKNOWN;
+  listed.apart = gap(from, a, b, listed.line) > 0 && gap(x, a, b, listed.line) > 0;
+  if (listed.apart) return false;
+
+  ++counts_.motions;
+  const auto first_end = places(x, scene_.triangles[first]),
+             second_end = places(x, scene_.triangles[second]);
+  MovingTriangle moving[2];
+  for (int c = 0; c < 3; ++c) {
+    moving[0][c] = {first_start[c], first_end[c]};
+    moving[1][c] = {second_start[c], second_end[c]};
+  }
+  return touch(moving[0], moving[1]);
+}
+
+std::vector<CrossingFinder::Pair> CrossingFinder::crossed(const double *x)
+{
+  start(x);
+  list(x, scene_.margin);
+  std::vector<Pair> pairs;
+  for (const Listed &listed : listed_) {
+    if (listed.apart) continue;
+    const auto triangle = [&](int t) {
+      rbc::Triangle points;
+      const auto corner = places(x, scene_.triangles[t]);
+      for (int c = 0; c < 3; ++c) points[c] = {corner[c].x, corner[c].y, corner[c].z};
+      return points;
+    };
+    if (distance(triangle(listed.pair.first), triangle(listed.pair.second)) <= TOUCHING * radius_)
+      pairs.push_back(listed.pair);
+  }
+  return pairs;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void CrossingFinder::list(const double *x, double reach)
+{
+  ++counts_.lists;
+  reach_ = reach;
+  listed_.clear();
+  near_.bound(x, reach_);
+  radius_ = near_.largest_radius();
+  motion_.hold(x, near_.fans().corners, near_.centres(), 2 * (radius_ + reach_));
+  find_normals(x);
+  near_.visit_pairs([&](int first, int second) { consider_fans(x, {first, second}); });
+  current_ = true;
+  counts_.listed += static_cast<std::int64_t>(listed_.size());
+}
+
+void CrossingFinder::find_normals(const double *x)
+{
+  const NumberLists &triangles = near_.fans().triangles;
+  normal_.resize(triangles.count());
+  for (int fan : near_.near_owned()) {
+    PlainVector sum{0, 0, 0};
+    for (int n = triangles.begin[fan]; n < triangles.begin[fan + 1]; ++n)
+      sum = sum + twice_area(x, scene_.triangles[triangles.number[n]]);
+    normal_[fan] = unit(sum);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   Lists two fans unless they are beyond reach along a line; if they are not apart, their triangles.
+------------------------------------------------------------------------- */
+
+void CrossingFinder::consider_fans(const double *x, Pair fans)
+{
+  const NumberLists &all = near_.fans().triangles;
+  const Pair triangles{all.number[all.begin[fans.first]], all.number[all.begin[fans.second]]};
+  if (!is_here(near_.is_owned(fans.first), near_.is_owned(fans.second), triangles)) return;
+  Listed listed{fans, fans.first, true, true, 0, {}};
+  const PlainVector lines[3] = {
+      normal_[fans.first], normal_[fans.second],
+      unit(at(near_.centres().data(), fans.first) - at(near_.centres().data(), fans.second))};
+  for (const PlainVector &line : lines) {
+    try_line(listed, x, line);
+    if (listed.gap > reach_) return;
+    if (listed.gap > WIDE * reach_) break;
+  }
+  const bool own =
+      scene_.triangles[triangles.first].surface == scene_.triangles[triangles.second].surface;
+  if (!own && !scene_.tested(triangles)) return;
+  if (listed.gap > 0)
+    listed_.push_back(listed);
+  else
+    split(x, fans, reach_);
+}
+
+/* ----------------------------------------------------------------------
+   keeps a line along which the two are further apart
+------------------------------------------------------------------------- */
+
+void CrossingFinder::try_line(Listed &listed, const double *x, PlainVector line) const
+{
+  const Span first(x, corners(listed.pair.first, listed.fans), line),
+      second(x, corners(listed.pair.second, listed.fans), line);
+  const double beyond = first.lowest - second.highest, back = second.lowest - first.highest;
+  if (std::max(beyond, back) <= listed.gap) return;
+  listed.gap = std::max(beyond, back);
+  listed.line = beyond > back ? line : -1 * line;
+}
+
+/* ----------------------------------------------------------------------
+   lists pairs of triangles of two fans, unless they are beyond reach
+------------------------------------------------------------------------- */
+
+void CrossingFinder::split(const double *x, Pair fans, double reach)
+{
+  const NumberLists &all = near_.fans().triangles;
+  for (int n = all.begin[fans.first]; n < all.begin[fans.first + 1]; ++n)
+    for (int m = all.begin[fans.second]; m < all.begin[fans.second + 1]; ++m)
+      consider(x, {all.number[n], all.number[m]}, fans.first, reach);
+}
+
+void CrossingFinder::consider(const double *x, Pair pair, int fan, double reach)
+{
+  const Triangle &first = scene_.triangles[pair.first], &second = scene_.triangles[pair.second];
+  if (!is_here(is_owned(pair.first), is_owned(pair.second), pair)) return;
+  if (first.surface == second.surface && (share_corner(first, second) || !scene_.tested(pair)))
+    return;
+  Listed listed{pair, fan, false, false, UNKNOWN, {}};
+  try_line(listed, x, unit(twice_area(x, first)));
+  if (listed.gap > reach) return;
+  try_line(listed, x, unit(twice_area(x, second)));
+  if (listed.gap > reach) return;
+  if (listed.gap <= 0) try_line(listed, x, unit(line_between(places(x, first), places(x, second))));
+  if (listed.gap > reach) return;
+  listed.apart = listed.gap > 0;
+  listed_.push_back(listed);
+}
+
+/* ----------------------------------------------------------------------
+   Two ranks see a pair of which each owns a side. Of different surfaces the lower number has it.
+------------------------------------------------------------------------- */
+
+bool CrossingFinder::is_here(bool first_owned, bool second_owned, Pair triangles) const
+{
+  if (!first_owned && !second_owned) return false;
+  if (first_owned && second_owned) return true;
+  const Surface first = scene_.triangles[triangles.first].surface,
+                second = scene_.triangles[triangles.second].surface;
+  return first == second || (first < second) == first_owned;
+}
+
+std::size_t CrossingFinder::bytes() const
+{
+  return (start_.capacity() + end_.capacity()) * sizeof(double) + near_.bytes() + motion_.bytes() +
+         normal_.capacity() * sizeof(PlainVector) + listed_.capacity() * sizeof(Listed) +
+         scene_.triangles.capacity() * sizeof(Triangle);
+}
+
+}    // namespace rbc

@@ -1,0 +1,113 @@
+#pragma once
+
+#include "contact/near_fans.h"
+#include "contact/neighbor_motion.h"
+#include "contact/surface_crossing.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace rbc {
+
+/// Finds whether triangulated surfaces pass through each other in a step in which their corners
+/// move along straight lines. Pairs of fans of triangles that can come near are listed, each with a
+/// line along which the two are apart, and where there is none the pairs of their triangles. What
+/// is apart along a line at both ends of a step cannot have touched within it, so that few need
+/// more. Positions are three numbers for each point.
+class CrossingFinder {
+ public:
+  using Triangle = NearTriangles::Triangle;
+  using Surface = NearTriangles::Surface;
+
+  /// Two triangles, by their places in the list of triangles.
+  struct Pair {
+    int first, second;
+  };
+
+  /// What to test.
+  struct Scene {
+    std::vector<Triangle> triangles;
+    int points = 0;         ///< have positions; the corners are among them
+    int owned = 0;          ///< the first points; pairs without one are left to other ranks
+    double margin = 0;      ///< distance within which pairs are listed
+    double furthest = 0;    ///< the largest distance within which it can be that pairs are listed
+    bool own_surfaces = false;           ///< surfaces cross themselves, too
+    std::function<bool(Pair)> tested;    ///< whether a pair is, the same for all of two surfaces
+  };
+
+  /// All begins anew with a scene, or with another answer of `tested`.
+  void build(Scene scene);
+
+  /// The positions from which a step leads on. It may be tried several times.
+  void start(const double *x);
+
+  /// Two triangles that touched on the way to `x`, if there are any. `known` is false, and there are
+  /// none, where points move by more than Scene::furthest relative to their neighbors.
+  struct Outcome {
+    bool known;
+    std::optional<Pair> crossed;
+  };
+  Outcome find(const double *x);
+
+  /// All that touch or intersect at `x`.
+  std::vector<Pair> crossed(const double *x);
+
+  /// What was done so far.
+  struct Counts {
+    std::int64_t steps = 0, lists = 0, listed = 0;
+    std::int64_t lines = 0;       ///< tests along a pair's line
+    std::int64_t searches = 0;    ///< for another line
+    std::int64_t motions = 0;     ///< tests of how triangles move
+  };
+  const Counts &counts() const { return counts_; }
+
+  std::size_t bytes() const;
+
+ private:
+  /// Two fans or two triangles, and a line along which the first is beyond the second.
+  struct Listed {
+    Pair pair;
+    int fan;    ///< that is the first, or has it
+    bool fans;
+    bool apart;          ///< along the line at the start of the step
+    double gap;          ///< along it when listed
+    PlainVector line;    ///< of unit length
+  };
+
+  /// The corners of a fan or a triangle.
+  struct Corners {
+    const int *first, *last;
+    const int *begin() const { return first; }
+    const int *end() const { return last; }
+  };
+
+  Scene scene_;
+  NearFans near_;
+
+  bool current_ = false;    ///< what is listed holds at the start of the step
+  std::vector<double> start_, end_;
+  double reach_ = 0;     ///< distance within which pairs are listed
+  double radius_ = 0;    ///< of the largest fan when listed
+  NeighborMotion motion_;
+  std::vector<Listed> listed_;
+
+  std::vector<PlainVector> normal_;    ///< of each fan near owned ones
+  Counts counts_;
+
+  void list(const double *x, double reach);
+  double needed_reach(const double *x);
+  void find_normals(const double *x);
+  void consider_fans(const double *x, Pair fans);
+  void split(const double *x, Pair fans, double reach);
+  void consider(const double *x, Pair pair, int fan, double reach);
+  void try_line(Listed &listed, const double *x, PlainVector line) const;
+  bool stay_apart(const Listed &listed, const double *x);
+  bool triangles_touched(Listed &listed, const double *x);
+  Corners corners(int body, bool fan) const;
+  bool is_here(bool first_owned, bool second_owned, Pair triangles) const;
+  bool is_owned(int triangle) const;
+};
+
+}    // namespace rbc

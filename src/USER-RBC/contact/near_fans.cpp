@@ -1,0 +1,125 @@
+#include "contact/near_fans.h"
+
+#include "geometry/plain_vector.h"
+
+#include <cmath>
+#include <limits>
+
+namespace rbc {
+
+namespace {
+
+PlainVector at(const double *x, int n)
+{
+  return {x[3 * std::size_t(n)], x[3 * std::size_t(n) + 1], x[3 * std::size_t(n) + 2]};
+}
+
+}    // namespace
+
+void NearFans::Spheres::resize(std::size_t size)
+{
+  for (auto *numbers : {&x, &y, &z, &radius}) numbers->resize(size + LANES);
+  for (auto *numbers : {&surface, &owned}) numbers->resize(size + LANES);
+  fan.resize(size);
+}
+
+void NearFans::build(const std::vector<NearTriangles::Triangle> &triangles, int points, int owned,
+                     bool own_surfaces)
+{
+  own_surfaces_ = own_surfaces;
+  fans_.find(triangles, points);
+  const int count = fans_.corners.count();
+  owned_.assign(count, 0);
+  surface_.resize(count);
+  for (int fan = 0; fan < count; ++fan) {
+    surface_[fan] = triangles[fans_.triangles.number[fans_.triangles.begin[fan]]].surface;
+    for (int n = fans_.corners.begin[fan]; n < fans_.corners.begin[fan + 1]; ++n)
+      if (fans_.corners.number[n] < owned) owned_[fan] = 1;
+  }
+}
+
+void NearFans::bound(const double *x, double reach)
+{
+  reach_ = reach;
+  const NumberLists &corners = fans_.corners;
+  centre_.resize(3 * std::size_t(corners.count()));
+  radius_.resize(corners.count());
+  largest_radius_ = 0;
+  for (int fan = 0; fan < corners.count(); ++fan) {
+    const int begin = corners.begin[fan], end = corners.begin[fan + 1];
+    PlainVector sum{0, 0, 0};
+    for (int n = begin; n < end; ++n) sum = sum + at(x, corners.number[n]);
+    const PlainVector centre = (1.0 / (end - begin)) * sum;
+    double radius2 = 0;
+    for (int n = begin; n < end; ++n) {
+      const PlainVector apart = at(x, corners.number[n]) - centre;
+      radius2 = std::max(radius2, dot(apart, apart));
+    }
+    radius_[fan] = std::sqrt(radius2);
+    largest_radius_ = std::max(largest_radius_, radius_[fan]);
+    centre_[3 * std::size_t(fan)] = centre.x;
+    centre_[3 * std::size_t(fan) + 1] = centre.y;
+    centre_[3 * std::size_t(fan) + 2] = centre.z;
+  }
+  find_near_owned(reach_ + 2 * largest_radius_);
+}
+
+/* ----------------------------------------------------------------------
+   fans whose centres are no further from the box around those with owned corners
+------------------------------------------------------------------------- */
+
+void NearFans::find_near_owned(double distance)
+{
+  constexpr double never = std::numeric_limits<double>::max();
+  double lo[3] = {never, never, never}, hi[3] = {-never, -never, -never};
+  for (std::size_t fan = 0; fan < owned_.size(); ++fan)
+    for (int d = 0; d < 3 && owned_[fan]; ++d) {
+      lo[d] = std::min(lo[d], centre_[3 * fan + d]);
+      hi[d] = std::max(hi[d], centre_[3 * fan + d]);
+    }
+  near_owned_.clear();
+  for (std::size_t fan = 0; fan < owned_.size(); ++fan) {
+    bool near = true;
+    for (int d = 0; d < 3; ++d)
+      near &= centre_[3 * fan + d] >= lo[d] - distance && centre_[3 * fan + d] <= hi[d] + distance;
+    if (near) near_owned_.push_back(static_cast<int>(fan));
+  }
+}
+
+void NearFans::sort(const SpatialBins &bins)
+{
+  const std::size_t count = near_owned_.size();
+  bin_begin_.assign(bins.count() + 1, 0);
+  bin_of_.resize(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    bin_of_[n] = bins.of(at(centre_.data(), near_owned_[n]));
+    ++bin_begin_[bin_of_[n] + 1];
+  }
+  for (int b = 0; b < bins.count(); ++b) bin_begin_[b + 1] += bin_begin_[b];
+  next_.assign(bin_begin_.begin(), bin_begin_.end() - 1);
+  spheres_.resize(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    const int fan = near_owned_[n], place = next_[bin_of_[n]]++;
+    const PlainVector centre = at(centre_.data(), fan);
+    spheres_.x[place] = centre.x;
+    spheres_.y[place] = centre.y;
+    spheres_.z[place] = centre.z;
+    spheres_.radius[place] = radius_[fan];
+    spheres_.surface[place] = surface_[fan];
+    spheres_.owned[place] = is_owned(fan) ? 1 : 0;
+    spheres_.fan[place] = fan;
+  }
+}
+
+std::size_t NearFans::bytes() const
+{
+  std::size_t integers = 0;
+  for (const auto *numbers : {&near_owned_, &bin_of_, &bin_begin_, &next_})
+    integers += numbers->capacity();
+  return fans_.bytes() + integers * sizeof(int) + owned_.capacity() +
+         surface_.capacity() * sizeof(Surface) +
+         (centre_.capacity() + radius_.capacity()) * sizeof(double) +
+         spheres_.x.capacity() * (4 * sizeof(double) + 2 * sizeof(Surface) + sizeof(int));
+}
+
+}    // namespace rbc

@@ -1,0 +1,106 @@
+#pragma once
+
+#include "contact/near_triangles.h"
+#include "contact/triangle_fans.h"
+#include "geometry/spatial_bins.h"
+#include "geometry/vector_loop.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace rbc {
+
+/// Finds pairs of fans that are near each other by the spheres around them.
+class NearFans {
+ public:
+  using Surface = NearTriangles::Surface;
+
+  /// A pair without a fan that has one of the `owned` first points is not found. Fans of one surface
+  /// are only with `own_surfaces`.
+  void build(const std::vector<NearTriangles::Triangle> &triangles, int points, int owned,
+             bool own_surfaces);
+
+  const TriangleFans &fans() const { return fans_; }
+  bool is_owned(int fan) const { return owned_[fan] != 0; }
+  Surface surface(int fan) const { return surface_[fan]; }
+
+  /// Spheres at `x`, three numbers for each point, for pairs nearer than `reach`.
+  void bound(const double *x, double reach);
+  double largest_radius() const { return largest_radius_; }
+  const std::vector<double> &centres() const { return centre_; }    ///< three numbers for each fan
+
+  /// The fans that can be one of a pair.
+  const std::vector<int> &near_owned() const { return near_owned_; }
+
+  /// Calls f(first, second) once for each pair whose spheres are nearer than the reach.
+  template <typename Function> void visit_pairs(const Function &f)
+  {
+    const SpatialBins bins(centre_.data(), fans_.corners.count(), reach_ + 2 * largest_radius_);
+    sort(bins);
+    for (int sphere = 0; sphere < static_cast<int>(near_owned_.size()); ++sphere) {
+      bool own_row = true;
+      bins.visit_half(bins.along(0, spheres_.x[sphere]), bins.along(1, spheres_.y[sphere]),
+                      bins.along(2, spheres_.z[sphere]), [&](int first, int last) {
+                        const int begin =
+                            std::exchange(own_row, false) ? sphere + 1 : bin_begin_[first];
+                        visit_row(sphere, begin, bin_begin_[last + 1], f);
+                      });
+    }
+  }
+
+  std::size_t bytes() const;
+
+ private:
+  static constexpr int LANES = 8;    ///< loops run on into what is no sphere any more
+
+  /// Of fans near owned ones, in the order of their bins.
+  struct Spheres {
+    std::vector<double> x, y, z, radius;
+    std::vector<Surface> surface, owned;    ///< owned: 1 if a corner is
+    std::vector<int> fan;
+
+    void resize(std::size_t size);
+  };
+
+  TriangleFans fans_;
+  bool own_surfaces_ = false;
+  std::vector<char> owned_;    ///< of each fan, whether a corner is
+  std::vector<Surface> surface_;
+  std::vector<double> centre_, radius_;
+  double reach_ = 0, largest_radius_ = 0;
+  std::vector<int> near_owned_, bin_of_, bin_begin_, next_;
+  Spheres spheres_;
+
+  void find_near_owned(double distance);
+  void sort(const SpatialBins &bins);
+
+  /// Spheres of a row of bins follow each other.
+  template <typename Function>
+  void visit_row(int sphere, int begin, int end, const Function &f) const
+  {
+    const Spheres &all = spheres_;
+    const double px = all.x[sphere], py = all.y[sphere], pz = all.z[sphere],
+                 far = reach_ + all.radius[sphere];
+    const Surface unseen = own_surfaces_ ? NearTriangles::NO_SURFACE : all.surface[sphere],
+                  owned = all.owned[sphere];
+    constexpr int most = 64;
+    std::int64_t hit[most];    // as wide as all others in the loop
+    for (int from = begin; from < end; from += most) {
+      const int count = std::min(most, end - from);
+      const double *const x = &all.x[from], *const y = &all.y[from], *const z = &all.z[from],
+                          *const radius = &all.radius[from];
+      const Surface *const surface = &all.surface[from], *const here = &all.owned[from];
+      for_each((count + LANES - 1) / LANES * LANES, [&](int n) {
+        const double dx = x[n] - px, dy = y[n] - py, dz = z[n] - pz, reached = far + radius[n];
+        hit[n] = (dx * dx + dy * dy + dz * dz <= reached * reached) & (surface[n] != unseen) &
+                 ((owned | here[n]) != 0);
+      });
+      for (int n = 0; n < count; ++n)
+        if (hit[n]) f(all.fan[sphere], all.fan[from + n]);
+    }
+  }
+};
+
+}    // namespace rbc

@@ -1,0 +1,94 @@
+#include "contact/triangle_fans.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace rbc {
+
+void TriangleFans::find(const std::vector<NearTriangles::Triangle> &all, int points)
+{
+  const int count = static_cast<int>(all.size());
+  around_.fill(points, next_, [&](const auto &put) {
+    for (int t = 0; t < count; ++t)
+      for (int v : all[t].corner) put(v, t);
+  });
+  choose_middles(all);
+  fan_of_.resize(all.size());
+  int fans = 0;
+  for (int t = 0; t < count; ++t) {
+    fan_of_[t] = fan_of(all, all[t]);
+    fans = std::max(fans, fan_of_[t] + 1);
+  }
+  triangles.fill(fans, next_, [&](const auto &put) {
+    for (int t = 0; t < count; ++t) put(fan_of_[t], t);
+  });
+  collect_corners(all);
+}
+
+/* ----------------------------------------------------------------------
+   A corner that is not beside the middle of a fan becomes one. The fans are numbered so.
+------------------------------------------------------------------------- */
+
+void TriangleFans::choose_middles(const std::vector<NearTriangles::Triangle> &all)
+{
+  nearest_.assign(around_.count(), -1);
+  in_middle_.assign(around_.count(), 0);
+  int fans = 0;
+  for (const NearTriangles::Triangle &triangle : all)
+    for (int v : triangle.corner) {
+      if (nearest_[v] >= 0) continue;
+      in_middle_[v] = 1;
+      for (int n = around_.begin[v]; n < around_.begin[v + 1]; ++n)
+        for (int w : all[around_.number[n]].corner)
+          if (nearest_[w] < 0) nearest_[w] = fans;
+      ++fans;
+    }
+}
+
+/* ----------------------------------------------------------------------
+   that of its corner in a middle, else of a neighbor with such a corner
+------------------------------------------------------------------------- */
+
+int TriangleFans::fan_of(const std::vector<NearTriangles::Triangle> &all,
+                         const NearTriangles::Triangle &triangle) const
+{
+  const auto middle_of = [this](const NearTriangles::Triangle &t) {
+    for (int v : t.corner)
+      if (in_middle_[v]) return nearest_[v];
+    return -1;
+  };
+  const int own = middle_of(triangle);
+  if (own >= 0) return own;
+  const auto is_corner = [&](int w) {
+    return w == triangle.corner[0] || w == triangle.corner[1] || w == triangle.corner[2];
+  };
+  for (int v : triangle.corner)
+    for (int n = around_.begin[v]; n < around_.begin[v + 1]; ++n) {
+      const NearTriangles::Triangle &other = all[around_.number[n]];
+      const int fan = middle_of(other);
+      if (fan >= 0 && std::count_if(other.corner.begin(), other.corner.end(), is_corner) == 2)
+        return fan;
+    }
+  return nearest_[triangle.corner[0]];
+}
+
+void TriangleFans::collect_corners(const std::vector<NearTriangles::Triangle> &all)
+{
+  next_.assign(around_.count(), -1);    // the last fan that has a corner
+  corners.number.clear();
+  corners.begin.assign(1, 0);
+  for (int fan = 0; fan < triangles.count(); ++fan) {
+    for (int n = triangles.begin[fan]; n < triangles.begin[fan + 1]; ++n)
+      for (int v : all[triangles.number[n]].corner)
+        if (std::exchange(next_[v], fan) != fan) corners.number.push_back(v);
+    corners.begin.push_back(static_cast<int>(corners.number.size()));
+  }
+}
+
+std::size_t TriangleFans::bytes() const
+{
+  return triangles.bytes() + corners.bytes() + around_.bytes() + in_middle_.capacity() +
+         (nearest_.capacity() + fan_of_.capacity() + next_.capacity()) * sizeof(int);
+}
+
+}    // namespace rbc
