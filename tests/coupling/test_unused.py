@@ -25,7 +25,8 @@ class OneCell(unittest.TestCase):
         self.assertIn("Total # of neighbors = 0", alone.printed)
         self.assertEqual(sections(alone), USED)
         with_contact = run(scene(SHEAR, before="pair_style rbc/jkr 0.6\npair_coeff 1 1 repulsive 0.007 0.4", run="run 10"))
-        self.assertEqual(sections(with_contact), ["Membrane", "Detection", "Contact", *USED[1:-1], "Gaps", "Total"])
+        self.assertEqual(sections(with_contact),
+                         ["Membrane", "Detection", "Contact", "Crossings", *USED[1:-1], "Gaps", "Total"])
 
     def test_layers_for_sheets_only(self):
         """Messages are the same; sheets exchange two layers of ghost cells more, points do not."""

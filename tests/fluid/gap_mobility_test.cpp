@@ -4,7 +4,7 @@
 #include "fluid/gap_mobility.h"
 
 #include "fluid/flow.h"
-#include "rigid_sphere.h"
+#include "rigid_scene.h"
 #include "test_support.h"
 
 namespace {
@@ -94,6 +94,59 @@ TEST(GapMobility, BesidePlate)
       EXPECT_NEAR(exact / (velocity + missing.slide_at_plate(gap)), 1, 0.06);
     }
   }
+}
+
+/// Velocity of a plane of unit tractions at a distance from a wall of markers at z, which are at
+/// rest. The markers are points, the offset behind the wall.
+double velocity_beside_wall(const Grid &grid, KernelKind kernel, double z, double distance)
+{
+  constexpr int ghost_layers = 6;
+  ForcedFlow flow(grid, even(grid, {1, 1, ranks()}), ghost_layers, FlowEquations{});
+  Points wall, plane;
+  add_plane(wall, z - surface_offset(kernel), 0);
+  add_plane(plane, z + distance, 1);
+  for (Points *points : {&wall, &plane}) assign(*points, grid, flow.decomposition());
+  const auto rows = rows_here(wall.position, wall);
+  const std::vector<int> body(wall.index.size(), 0);
+  RigidSurface surface;
+  RigidSurface::Settings settings;
+  settings.tolerance = 1e-8;
+  settings.max_solves = 300;
+  surface.set_settings(settings);
+  surface.set_markers(flow, kernel, static_cast<int>(body.size()), rows.data(), body.data());
+  std::fill_n(surface.target(), 3 * body.size(), 0.0);
+
+  flow.clear_force();
+  EXPECT_EQ(flow.spread(plane.markers(kernel, MarkerKind::sheets), plane.f(), 1), -1);
+  EXPECT_EQ(surface.spread(flow, 0, {0, 0, 0}), -1);
+  flow.accumulate_ghosts();
+  flow.solve();
+  EXPECT_TRUE(surface.enforce(flow).converged);
+  std::vector<Real3> velocity(plane.count(), {0, 0, 0});
+  flow.interpolate(plane.markers(kernel, MarkerKind::sheets), numbers(velocity));
+  MPI_Allreduce(MPI_IN_PLACE, numbers(velocity), 3 * plane.count(), MPI_DOUBLE, MPI_SUM,
+                MPI_COMM_WORLD);
+  return velocity[0][0];
+}
+
+/// Beside a wall of points that are the offset behind it little is missing: sheets are further from
+/// the points than from the wall. Across an axis the difference is largest.
+TEST(GapMobility, BesideWallOfPoints)
+{
+  constexpr int height = 24, places = 4;
+  const Grid grid{{4, 4, height}, {0, 0, 0}, {1, 1, 1}, true};
+  for (KernelKind kernel : kernels)
+    for (double gap : {0.2, 0.3, 0.5, 1.0, 2.0}) {
+      double velocity = 0, exact = 0;
+      for (int place = 0; place < places; ++place) {
+        const double z = 10 + (place + 0.5) / places;
+        velocity += velocity_beside_wall(grid, kernel, z, gap) / places;
+        exact += gap * (1 - gap / (height - z)) / places;
+      }
+      std::printf("wall, kernel %d, gap %.2f dx: friction %.3f\n", static_cast<int>(kernel), gap,
+                  exact / velocity);
+      EXPECT_NEAR(exact / velocity, 1, kernel == KernelKind::roma3 ? 0.2 : 0.14);
+    }
 }
 
 /// Adds a sphere with the torque `torque` about z on the fluid.
