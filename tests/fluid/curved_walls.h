@@ -80,4 +80,35 @@ inline TubeFactors found_factors(KernelKind kernel, MarkerKind kind, double leng
   return {a / radius, force[1] + k2 * speed[1], k2};
 }
 
+/// Drag over 6 pi viscosity a U of a sphere that moves away from a plane wall, the height of its
+/// centre over its radius being `height`: Brenner, Chem. Eng. Sci. 16 (1961) 242.
+inline double brenner(double height)
+{
+  const double alpha = std::acosh(height);
+  double sum = 0;
+  for (int n = 1; n < 2000; ++n) {
+    const double m = n + 0.5;
+    if (2 * m * alpha > 600) break;
+    const double above = 2 * std::sinh(2 * m * alpha) + 2 * m * std::sinh(2 * alpha);
+    const double below =
+        4 * std::pow(std::sinh(m * alpha), 2) - std::pow(2 * m * std::sinh(alpha), 2);
+    sum += n * (n + 1.0) / ((2 * n - 1.0) * (2 * n + 3.0)) * (above / below - 1);
+  }
+  return 4.0 / 3 * std::sinh(alpha) * sum;
+}
+
+/// The same of a sphere of markers at a gap above the lower plate. The other plate is three
+/// diameters away, and its images six.
+inline double drag_off_plate(KernelKind kernel, MarkerKind kind, double radius, double gap)
+{
+  const int wide = fast_size(static_cast<int>(12 * radius));
+  const Grid grid{{wide, wide, wide / 2}, {0, 0, 0}, {1, 1, 1}, true};
+  const double markers = kind == MarkerKind::points ? radius - surface_offset(kernel) : radius;
+  Scene scene(grid, even(grid, {1, 1, ranks()}), kernel,
+              {sphere({wide / 2 + 0.1, wide / 2 + 0.2, radius + gap}, markers, 1.2)}, false, 1e-4,
+              kind);
+  scene.solve(no_force, [](int) { return Real3{0, 0, 1}; });
+  return scene.force(0)[2] / (6 * pi * radius);
+}
+
 }    // namespace test

@@ -105,6 +105,20 @@ TEST(RigidSurface, SheetsInASimpleCubicArray)
 
 /// A force as of a vertex pressed against the wall: markers yield by more than is allowed, and the
 /// rest is solved for.
+/// What resists a sphere that leaves a plate is the fluid that must flow into the gap.
+TEST(RigidSurface, SphereThatLeavesAPlate)
+{
+  constexpr double radius = 5;
+  for (MarkerKind kind : {MarkerKind::points, MarkerKind::sheets})
+    for (double gap : {0.5, 1.0, 2.0}) {
+      const double error =
+          drag_off_plate(KernelKind::roma3, kind, radius, gap) / brenner(1 + gap / radius) - 1;
+      std::printf("%s, gap %g dx: %.3f\n", kind == MarkerKind::points ? "points" : "sheets", gap,
+                  error);
+      EXPECT_LT(std::abs(error), kind == MarkerKind::points ? 0.1 : 0.12);
+    }
+}
+
 TEST(RigidSurface, ForceNextToTheWall)
 {
   constexpr double radius = 14;
