@@ -13,6 +13,8 @@ class AtomRows {
  public:
   /// All zero.
   void assign(int atoms) { values_.assign(3 * std::size_t(atoms), 0.0); }
+  /// Of any values.
+  void resize(int atoms) { values_.resize(3 * std::size_t(atoms)); }
 
   double *operator[](int i) { return values_.data() + 3 * std::size_t(i); }
   const double *operator[](int i) const { return values_.data() + 3 * std::size_t(i); }

@@ -19,6 +19,11 @@ static constexpr double RESOLVED = 2.0;
 
 static constexpr double SLIP = 0.03;
 
+static rbc::SurfaceFilter::Row row_of(const double *numbers)
+{
+  return {numbers[0], numbers[1], numbers[2], 0};
+}
+
 static constexpr int MODES = rbc::SurfaceFilter::modes;
 static constexpr int PARTS = 3 * MODES;
 
@@ -34,14 +39,9 @@ void TractionFilter::start_run(const DrivenFlow &flow,
 {
   slip_ = SLIP * flow.mean_spacing() / flow.settings().equations.viscosity;
   kinds_.clear();
-  int largest = 0;
   for (CellMembranes *cells : membranes)
-    if (cells->is_smoothed()) {
+    if (cells->is_smoothed())
       kinds_.push_back({cells, {cells->shape(), RESOLVED / flow.mean_spacing()}, {}, {}});
-      largest = std::max(largest, cells->shape().vertex_count());
-    }
-  cell_.assign(largest, Row::Zero());
-  scratch_.assign(largest, Row::Zero());
 }
 
 /* ----------------------------------------------------------------------
@@ -49,17 +49,12 @@ void TractionFilter::start_run(const DrivenFlow &flow,
 ------------------------------------------------------------------------- */
 
 template <class Function>
-void TractionFilter::for_owned(const LocalCells::Cell &cell, int vertices, Function function) const
+void TractionFilter::for_owned(const LocalCells::Cell &cell, const Kind &kind,
+                               Function function) const
 {
-  const int owned = atom->nlocal;
+  const int owned = atom->nlocal, vertices = kind.filter.vertex_count();
   for (int v = 0; v < vertices; ++v)
     if (const int i = cell.atom[v]; i >= 0 && i < owned) function(v, i);
-}
-
-template <class Function> void TractionFilter::for_vertices(const Kind &kind, Function f) const
-{
-  for (const LocalCells::Cell &cell : kind.membranes->local_cells().cells())
-    for_owned(cell, kind.filter.vertex_count(), f);
 }
 
 /* ----------------------------------------------------------------------
@@ -72,33 +67,45 @@ void TractionFilter::for_shared_vertices(const Kind &kind, Function function) co
 {
   const auto &cells = kind.membranes->local_cells().cells();
   for (std::size_t c = 0; c < cells.size(); ++c)
-    if (cells[c].shared >= 0)
-      for_owned(cells[c], kind.filter.vertex_count(), [&](int v, int i) { function(c, v, i); });
+    if (cells[c].shared >= 0) for_owned(cells[c], kind, [&](int v, int i) { function(c, v, i); });
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Filters the function whose value is load(kind, v, i) at the vertex v that is atom i. Each result
+   goes to store(kind, v, i, result).
+------------------------------------------------------------------------- */
 
-void TractionFilter::filter()
+template <class Load, class Store> void TractionFilter::filter(Load load, Store store)
 {
-  bool shared = false;
+  filter_whole_cells(load, store);
+  const bool shared = std::any_of(kinds_.begin(), kinds_.end(), [](const Kind &kind) {
+    return kind.membranes->local_cells().has_shared();
+  });
+  if (!shared) return;
+
+  for (AtomRows *rows : {&smooth_, &next_}) rows->assign(atom->nlocal + atom->nghost);
+  for (const Kind &kind : kinds_)
+    for_shared_vertices(kind, [&](std::size_t /*c*/, int v, int i) {
+      std::copy_n(load(kind, v, i).data(), 3, smooth_[i]);
+    });
+  filter_shared_cells();
+  for (const Kind &kind : kinds_)
+    for_shared_vertices(
+        kind, [&](std::size_t /*c*/, int v, int i) { store(kind, v, i, row_of(smooth_[i])); });
+}
+
+template <class Load, class Store> void TractionFilter::filter_whole_cells(Load load, Store store)
+{
   for (const Kind &kind : kinds_) {
-    filter_whole_cells(kind);
-    shared = shared || kind.membranes->local_cells().has_shared();
-  }
-  if (shared) filter_shared_cells();
-}
-
-void TractionFilter::filter_whole_cells(const Kind &kind)
-{
-  const int vertices = kind.filter.vertex_count();
-  for (const LocalCells::Cell &cell : kind.membranes->local_cells().cells()) {
-    if (cell.shared >= 0) continue;
-    for (int v = 0; v < vertices; ++v) {
-      const double *const row = smooth_[cell.atom[v]];
-      cell_[v] = {row[0], row[1], row[2], 0};
+    const int vertices = kind.filter.vertex_count();
+    cell_.resize(vertices);
+    scratch_.resize(vertices);
+    for (const LocalCells::Cell &cell : kind.membranes->local_cells().cells()) {
+      if (cell.shared >= 0) continue;
+      for (int v = 0; v < vertices; ++v) cell_[v] = load(kind, v, cell.atom[v]);
+      kind.filter.apply(cell_, scratch_);
+      for (int v = 0; v < vertices; ++v) store(kind, v, cell.atom[v], cell_[v]);
     }
-    kind.filter.apply(cell_, scratch_);
-    for (int v = 0; v < vertices; ++v) std::copy_n(cell_[v].data(), 3, smooth_[cell.atom[v]]);
   }
 }
 
@@ -119,10 +126,7 @@ void TractionFilter::filter_shared_cells()
       if (number >= kind.filter.passes()) continue;
       const auto &cells = kind.membranes->local_cells().cells();
       for_shared_vertices(kind, [&](std::size_t c, int v, int i) {
-        const auto value = [&](int w) -> Row {
-          const double *const row = smooth_[cells[c].atom[w]];
-          return {row[0], row[1], row[2], 0};
-        };
+        const auto value = [&](int w) { return row_of(smooth_[cells[c].atom[w]]); };
         const Row after = kind.filter.pass(number, v, value);
         std::copy_n(after.data(), 3, next_[i]);
       });
@@ -169,22 +173,18 @@ void TractionFilter::add_linear(const Kind &kind, const std::vector<double> &par
 const double *TractionFilter::smooth_forces(const double *force, double factor)
 {
   stopwatch_.start();
-  const int all = atom->nlocal + atom->nghost;
-  for (AtomRows *rows : {&force_, &rough_, &smooth_, &next_}) rows->assign(all);
+  force_.resize(atom->nlocal);
+  rough_.resize(atom->nlocal);
   for (int i = 0; i < atom->nlocal; ++i)
     for (int d = 0; d < 3; ++d) force_[i][d] = factor * force[3 * std::size_t(i) + d];
-  for (const Kind &kind : kinds_)
-    for_vertices(kind, [&](int v, int i) {
-      for (int d = 0; d < 3; ++d) smooth_[i][d] = rough_[i][d] = force_[i][d] / kind.filter.area(v);
-    });
-  filter();
-  for (const Kind &kind : kinds_)
-    for_vertices(kind, [&](int v, int i) {
-      for (int d = 0; d < 3; ++d) {
-        rough_[i][d] -= smooth_[i][d];
-        force_[i][d] = kind.filter.area(v) * smooth_[i][d];
-      }
-    });
+  const auto traction = [&](const Kind &kind, int v, int i) -> Row {
+    return row_of(force_[i]) / kind.filter.area(v);
+  };
+  filter(traction, [&](const Kind &kind, int v, int i, const Row &smooth) {
+    const Row rough = traction(kind, v, i) - smooth, felt = kind.filter.area(v) * smooth;
+    std::copy_n(rough.data(), 3, rough_[i]);
+    std::copy_n(felt.data(), 3, force_[i]);
+  });
   stopwatch_.stop();
   return force_[0];
 }
@@ -196,17 +196,14 @@ const double *TractionFilter::smooth_forces(const double *force, double factor)
 void TractionFilter::smooth_velocities(double *velocity)
 {
   stopwatch_.start();
-  for (const Kind &kind : kinds_)
-    for_vertices(kind, [&](int /*v*/, int i) {
-      for (int d = 0; d < 3; ++d)
-        smooth_[i][d] = velocity[3 * std::size_t(i) + d] - slip_ * rough_[i][d];
-    });
-  filter();
-  for (const Kind &kind : kinds_)
-    for_vertices(kind, [&](int /*v*/, int i) {
-      for (int d = 0; d < 3; ++d)
-        velocity[3 * std::size_t(i) + d] = smooth_[i][d] + slip_ * rough_[i][d];
-    });
+  filter(
+      [&](const Kind & /*kind*/, int /*v*/, int i) -> Row {
+        return row_of(velocity + 3 * std::size_t(i)) - slip_ * row_of(rough_[i]);
+      },
+      [&](const Kind & /*kind*/, int /*v*/, int i, const Row &smooth) {
+        const Row moves = smooth + slip_ * row_of(rough_[i]);
+        std::copy_n(moves.data(), 3, velocity + 3 * std::size_t(i));
+      });
   stopwatch_.stop();
 }
 

@@ -64,12 +64,11 @@ class TractionFilter : public StepPart, protected Pointers {
   double slip_ = 0;    ///< SLIP dx / viscosity
   rbc::Stopwatch stopwatch_;
 
-  template <class Function> void for_vertices(const Kind &kind, Function function) const;
-  template <class Function> void for_shared_vertices(const Kind &kind, Function function) const;
   template <class Function>
-  void for_owned(const LocalCells::Cell &cell, int vertices, Function function) const;
-  void filter();
-  void filter_whole_cells(const Kind &kind);
+  void for_owned(const LocalCells::Cell &cell, const Kind &kind, Function function) const;
+  template <class Function> void for_shared_vertices(const Kind &kind, Function function) const;
+  template <class Load, class Store> void filter(Load load, Store store);
+  template <class Load, class Store> void filter_whole_cells(Load load, Store store);
   void filter_shared_cells();
   void take_linear(Kind &kind, std::vector<double> &parts);
   void add_linear(const Kind &kind, const std::vector<double> &parts, double factor);
