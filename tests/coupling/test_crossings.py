@@ -14,14 +14,17 @@ CROSSED = (r"surfaces of the cells with molecule IDs 1 and 2 passed through each
 TAKEN_AGAIN = r"^Pair rbc/jkr: (\d+) steps? (?:was|were) taken again because surfaces of cells passed"
 
 
+def pushes(force):
+    return (f"group lower molecule 1\ngroup upper molecule 2\n"
+            f"fix up lower addforce 0 0 {force}\nfix down upper addforce 0 0 -{force}")
+
+
 def pressed(stiffness, force=0.002, gap=0.02, **changes):
     """Two cells above each other, pressed together and sheared, with a repulsion of range 0.3."""
     apart = (2.55 + gap) / 2
     lines = dict(
         cells=f"rbc/create rbc single 6 6 {6 - apart}\nrbc/create rbc single 6 6 {6 + apart} rotate 175 0 0 1",
-        before=f"pair_style rbc/jkr 0.4\npair_coeff * * repulsive {stiffness} 0.3\n"
-               "group lower molecule 1\ngroup upper molecule 2\n"
-               f"fix up lower addforce 0 0 {force}\nfix down upper addforce 0 0 -{force}",
+        before=f"pair_style rbc/jkr 0.4\npair_coeff * * repulsive {stiffness} 0.3\n" + pushes(force),
         membrane=SHEAR["membrane"].replace("volume yes", "area 1.0 0.05 volume yes"),
         fluid=SHEAR["fluid"].replace("zlo 0 0 0", "zlo -0.003 0 0").replace("0.0012", "0.003"),
         ib="fix ib all rbc/ib flow integrator rkc auto", timestep="timestep 100", run="run 40",
@@ -82,11 +85,11 @@ class Crossings(unittest.TestCase):
     def test_taken_again(self):
         # a shorter step finds the repulsion in time
         case = pressed(0.01, force=0.004, gap=0.05, ib="fix ib all rbc/ib flow integrator rkc auto adapt 0.02 100",
-                       run="run 30")
+                       run="run 30\nthermo_style one\nunfix ib\nrun 0")
         for result in in_parallel(run, [(case, 1), (case, 2)]):
-            again = int(re.search(TAKEN_AGAIN, result.printed, re.MULTILINE).group(1))
+            again, = (int(number) for number in re.findall(TAKEN_AGAIN, result.printed, re.MULTILINE))
             self.assertGreater(again, 0)
-            self.assertGreaterEqual(result.thermo["f_ib[10]"][-1], again)
+            self.assertGreaterEqual(result.tables()[0]["f_ib[10]"][-1], again)
             self.assertEqual(max(crossings(result.dump())), 0)
 
     def test_not_without_need(self):
@@ -94,6 +97,16 @@ class Crossings(unittest.TestCase):
         self.assertNotRegex(result.printed, "taken again|WARNING: Pair")
         self.assertEqual(result.thermo["f_ib[8]"][-1], 0)
         self.assertEqual(max(crossings(result.dump())), 0)
+
+    def test_of_any_style_of_hybrid(self):
+        for first, second in (("none", "repulsive 1e-6 0.3"), ("repulsive 1e-6 0.3", "none")):
+            with self.subTest(first=first):
+                styles = ("pair_style hybrid/overlay rbc/jkr 0.4 rbc/jkr 0.4\n"
+                          f"pair_coeff * * rbc/jkr 1 {first}\npair_coeff * * rbc/jkr 2 {second}\n")
+                result = attempt(pressed(0, before=styles + pushes(0.002)))
+                self.assertEqual(result.code, 1)
+                self.assertRegex(result.error, "^Pair rbc/jkr: " + CROSSED)
+                self.assertEqual(max(crossings(result.dump())), 0)
 
     def test_cells_that_do_not_touch_may_cross(self):
         kinds = ("mass * 1.0\ngroup second id > 162\nset group second type 2\npair_style rbc/jkr 0.4\n"

@@ -10,14 +10,22 @@
 
 using namespace LAMMPS_NS;
 
-CellContact *LAMMPS_NS::find_cell_contact(Force *force)
+std::vector<CellContact *> LAMMPS_NS::find_cell_contacts(Force *force)
 {
+  std::vector<CellContact *> contacts;
   for (StepPart *part : pair_step_parts(force)) {
     const auto *const pair = dynamic_cast<Pair *>(part);
     auto *const contact = dynamic_cast<CellContact *>(part);
-    if (contact && pair && pair->compute_flag && force->pair->compute_flag) return contact;
+    if (contact && pair && pair->compute_flag && force->pair->compute_flag)
+      contacts.push_back(contact);
   }
-  return nullptr;
+  return contacts;
+}
+
+CellContact *LAMMPS_NS::find_cell_contact(Force *force)
+{
+  const std::vector<CellContact *> contacts = find_cell_contacts(force);
+  return contacts.empty() ? nullptr : contacts.front();
 }
 
 double LAMMPS_NS::widest_gap_wanted(Modify *modify)

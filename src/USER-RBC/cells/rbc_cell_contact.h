@@ -44,8 +44,11 @@ class ContactReader {
   ~ContactReader() = default;
 };
 
-/// The first pair style that is a CellContact and is computed in each step, one of pair_style
-/// hybrid included, or null.
+/// The pair styles that are a CellContact and are computed in each step, those of pair_style hybrid
+/// included.
+std::vector<CellContact *> find_cell_contacts(class Force *force);
+
+/// The first of them, or null.
 CellContact *find_cell_contact(class Force *force);
 
 /// The widest gap that any fix wants, or 0.

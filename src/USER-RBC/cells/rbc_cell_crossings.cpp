@@ -8,6 +8,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 using namespace LAMMPS_NS;
@@ -117,11 +118,12 @@ void CellCrossings::report_found(CollectiveStop &stop)
 
 /* ---------------------------------------------------------------------- */
 
-void CellCrossings::tell() const
+void CellCrossings::tell()
 {
-  if (retaken_ > 0 && comm->me == 0)
+  const bigint retaken = std::exchange(retaken_, 0);
+  if (retaken > 0 && comm->me == 0)
     utils::logmesg(lmp,
                    "{}: {} step{} taken again because surfaces of cells passed through each "
                    "other\n",
-                   style_, retaken_, retaken_ > 1 ? "s were" : " was");
+                   style_, retaken, retaken > 1 ? "s were" : " was");
 }

@@ -35,11 +35,12 @@ class CellCrossings : protected Pointers {
   /// where this rank's atoms are now. Collective: ghosts get their positions.
   void report(CollectiveStop &stop);
 
-  /// A step is taken again because of such a report.
+  /// A step is taken again because of such a report, of this or another pair style.
   void count_retaken() { ++retaken_; }
 
-  /// At the end of a run: says how many steps were taken again, if any were.
-  void tell() const;
+  /// At the end of a run: says how many steps were taken again, if any were. Once: fix rbc/ib may
+  /// be gone in the next run.
+  void tell();
 
   rbc::Stopwatch &stopwatch() { return stopwatch_; }
   const rbc::CrossingFinder::Counts &counts() const { return finder_.counts(); }

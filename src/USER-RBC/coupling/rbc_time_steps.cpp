@@ -101,6 +101,23 @@ void TimeSteps::atoms_migrated()
 }
 
 /* ----------------------------------------------------------------------
+   each style knows which surfaces it lets touch
+------------------------------------------------------------------------- */
+
+void TimeSteps::find_crossings()
+{
+  crossings_.clear();
+  for (CellContact *contact : find_cell_contacts(force))
+    if (CellCrossings *const crossings = contact->crossings()) crossings_.push_back(crossings);
+  for (CellCrossings *crossings : crossings_) crossings->start_run();
+}
+
+void TimeSteps::report_crossings()
+{
+  for (CellCrossings *crossings : crossings_) crossings->report(*markers_.stop());
+}
+
+/* ----------------------------------------------------------------------
    With inertia the atoms already hold the velocities that the first step starts from, those of the
    middle of the last step: they are only checked.
 ------------------------------------------------------------------------- */
@@ -108,9 +125,7 @@ void TimeSteps::atoms_migrated()
 void TimeSteps::setup()
 {
   using Stage = ImmersedMarkers::Stage;
-  CellContact *const contact = find_cell_contact(force);
-  crossings_ = contact ? contact->crossings() : nullptr;
-  if (crossings_) crossings_->start_run();
+  find_crossings();
   if (flow_->has_inertia()) {
     markers_.check_velocities(Stage::start);
     return;
@@ -186,7 +201,7 @@ void TimeSteps::advance()
   choose_timestep();
   markers_.load(atom->x, X_);
   markers_.load(atom->v, V_);
-  if (crossings_) crossings_->start_step();
+  for (CellCrossings *crossings : crossings_) crossings->start_step();
   tries_ = 0;
   seen_.clear();
   do flow_->begin_step(tries_++ > 0);
@@ -246,7 +261,7 @@ bool TimeSteps::step_is_accepted()
 
   ++rejected_;
   if (!went_well) ++failed_;
-  if (!went_well && seen_.back() == Flaw::crossed) crossings_->count_retaken();
+  if (!went_well && seen_.back() == Flaw::crossed) crossings_.front()->count_retaken();
   if (control_.active()) {
     if (next_dt_ < control_.smallest) stop_adapting(!went_well);
     set_timestep(next_dt_, step() - 1);
@@ -312,7 +327,7 @@ void TimeSteps::check_result()
   markers_.store(X_new_, atom->x);
   markers_.check_positions();
   if (tries_ > 1) markers_.check_displacements(X_, X_new_);    // parts allow more
-  if (crossings_) crossings_->report(*markers_.stop());
+  report_crossings();
   markers_.stop()->check();
   if (!integrator_->can_retake()) return;
   if (integrator_->has_grown())
@@ -328,7 +343,7 @@ void TimeSteps::check_result()
 void TimeSteps::measure_error()
 {
   markers_.store(X_new_, atom->x);
-  if (crossings_) crossings_->report(*markers_.stop());
+  report_crossings();
   V_new_ = V_;
   markers_.velocity(X_new_, 1.0, V_new_);
   velocities_known_ = true;

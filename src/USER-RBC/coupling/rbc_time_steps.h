@@ -71,7 +71,7 @@ class TimeSteps : protected Pointers {
   std::string style_;
   ImmersedMarkers &markers_;
   DrivenFlow *flow_ = nullptr;
-  CellCrossings *crossings_ = nullptr;    ///< null where surfaces of cells do not act on each other
+  std::vector<CellCrossings *> crossings_;    ///< of pair styles in which surfaces of cells act
   std::unique_ptr<rbc::Integrator> integrator_;
   AtomStore store_;
   rbc::StepControl control_;
@@ -98,6 +98,8 @@ class TimeSteps : protected Pointers {
   double update_dt() const;
   bigint step() const;
   std::string what_acts() const;
+  void find_crossings();
+  void report_crossings();
   void start_velocities();
   void show_velocities();
   void compare_velocities();
