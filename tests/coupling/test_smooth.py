@@ -103,5 +103,11 @@ class Errors(unittest.TestCase):
         self.assertIn(message, attempt(scene(membrane=smooth, ib=SHEAR["ib"] + " sheets no")).error)
         self.assertIn("Expected boolean parameter instead of 'maybe'",
                       attempt(scene(membrane=SHEAR["membrane"] + " smooth maybe")).error)
-        part = "group some id 1:100\nfix ib some rbc/ib flow integrator midpoint"
-        self.assertTrue(attempt(scene(membrane=smooth, ib=part)).error)
+
+    def test_all_vertices_must_move(self):
+        smooth = SHEAR["membrane"].replace("volume yes", "volume no smooth yes")
+        part = "group some id 1:100\nfix ib some rbc/ib flow integrator midpoint\n"
+        held = "group others subtract all some\nfix wall others rbc/wall flow"
+        for ib in (part, part + held):
+            self.assertIn("Fix rbc/ib ib does not move all atoms of fix rbc/membrane mem, which smooths tractions",
+                          attempt(scene(membrane=smooth, ib=ib)).error)
