@@ -63,7 +63,8 @@ bool FixRBCIB::fluid_has_inertia() const
 
 void FixRBCIB::update_default()
 {
-  if (!takes_default || steps->integrator().allows_inertia() == flow->has_inertia()) return;
+  if (!takes_default || masses || steps->integrator().allows_inertia() == flow->has_inertia())
+    return;
   if (!flow->has_inertia())
     error->all(FLERR,
                "Fix rbc/ib {} was defined for a fluid with inertia, with integrator {}; fix "

@@ -125,6 +125,8 @@ IB_ERRORS = {
     "gaps of points": (dict(ib=SHEAR["ib"] + " sheets no gaps yes"), ["gaps yes needs sheets yes"]),
     "unknown scheme": (dict(ib="fix ib all rbc/ib flow scheme plastic"), ["rbc/ib", "scheme", "plastic", "elastic"]),
     "direct without inertia": (dict(ib=DIRECT), ["rbc/ib ib", "scheme direct", "inertia unsteady or convective"]),
+    "direct without inertia, integrator by default": (dict(ib="fix ib all rbc/ib flow scheme direct"),
+                                                      ["rbc/ib ib", "scheme direct", "inertia unsteady or convective"]),
     "direct with projection": (dict(fluid=UNSTEADY + " scheme projection", ib=DIRECT),
                                ["rbc/ib ib", "scheme direct", "rbc/fluid flow", "scheme coupled"]),
     "direct without masses": (dict(fluid=UNSTEADY, ib=DIRECT, create_box="create_box 2 box angle/types 1"),
