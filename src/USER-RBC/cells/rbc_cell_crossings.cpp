@@ -18,6 +18,12 @@ using namespace LAMMPS_NS;
 
 static constexpr double MARGIN = 0.6;
 
+// How far atoms move relative to each other in a step, at most, over what each may have moved since
+// the surfaces were built: by twice that in the step, in opposite directions, and sqrt(3) for how
+// CrossingFinder measures it. What it does not test is then reported as having moved too far.
+
+static constexpr double FURTHEST = 7;
+
 /* ---------------------------------------------------------------------- */
 
 CellCrossings::CellCrossings(LAMMPS *lmp, std::string style, const NearSurfaces &surfaces,
@@ -60,7 +66,7 @@ void CellCrossings::learn_triangles()
   if (build_ == surfaces_.builds()) return;
   build_ = surfaces_.builds();
   finder_.build({surfaces_.known_triangles(), atom->nlocal + atom->nghost, atom->nlocal,
-                 MARGIN * surfaces_.longest_edge(), 4 * surfaces_.allowed_displacement(),
+                 MARGIN * surfaces_.longest_edge(), FURTHEST * surfaces_.allowed_displacement(),
                  surfaces_.see_own_cells(), [this](Pair pair) { return is_tested(pair); }});
 }
 

@@ -29,11 +29,11 @@ class CrossingFinder {
   /// What to test.
   struct Scene {
     std::vector<Triangle> triangles;
-    int points = 0;         ///< have positions; the corners are among them
-    int owned = 0;          ///< the first points; pairs without one are left to other ranks
-    double margin = 0;      ///< distance within which pairs are listed
-    double furthest = 0;    ///< the largest distance within which it can be that pairs are listed
-    bool own_surfaces = false;           ///< surfaces cross themselves, too
+    int points = 0;               ///< have positions; the corners are among them
+    int owned = 0;                ///< the first points; pairs without one are left to other ranks
+    double margin = 0;            ///< distance within which pairs are listed
+    double furthest = 0;          ///< the largest distance within which pairs need ever be listed
+    bool own_surfaces = false;    ///< surfaces cross themselves, too
     std::function<bool(Pair)> tested;    ///< whether a pair is, the same for all of two surfaces
   };
 
@@ -43,8 +43,9 @@ class CrossingFinder {
   /// The positions from which a step leads on. It may be tried several times.
   void start(const double *x);
 
-  /// Two triangles that touched on the way to `x`, if there are any. `known` is false, and there are
-  /// none, where points move by more than Scene::furthest relative to their neighbors.
+  /// Two triangles that touched on the way to `x`, if there are any. `known` is false, and none are
+  /// given, where points move by more than Scene::furthest relative to their neighbors. That is the
+  /// diagonal of the box of all their relative displacements, up to sqrt(3) times the largest.
   struct Outcome {
     bool known;
     std::optional<Pair> crossed;
