@@ -1,5 +1,5 @@
-// Errors of flows along and around curved walls of markers: points, behind the wall by the offset of
-// a plane, and sheets, on it. Writes a table.
+// Errors of flows along and around curved walls of markers: points, behind the wall by the offset
+// of a plane, and sheets, on it. Writes a table.
 
 #include "curved_walls.h"
 

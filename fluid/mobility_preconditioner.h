@@ -12,8 +12,8 @@ struct MarkerCloud;
 /// to fine, such that the first ones of any number cover the surface evenly. Each depends on those
 /// before it within a few times the distance to the nearest of these, which is what is best for a
 /// given sparsity (Schaefer, Katzfuss & Owhadi, SIAM J. Sci. Comput. 43 (2021) A2019). The mobility
-/// is that of blobs of the size of the kernel in unbounded steady flow, corrected for sheets as their
-/// velocities are, and the compliance of the markers.
+/// is that of blobs of the size of the kernel in unbounded steady flow, corrected for sheets as
+/// their velocities are, and the compliance of the markers.
 ///
 /// Every rank knows all markers, so the result does not depend on the number of ranks.
 class MobilityPreconditioner {

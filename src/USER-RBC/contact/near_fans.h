@@ -17,8 +17,8 @@ class NearFans {
  public:
   using Surface = NearTriangles::Surface;
 
-  /// A pair without a fan that has one of the `owned` first points is not found. Fans of one surface
-  /// are only with `own_surfaces`.
+  /// A pair is found if one of its fans has one of the `owned` first points. Two fans of one
+  /// surface are a pair only with `own_surfaces`.
   void build(const std::vector<NearTriangles::Triangle> &triangles, int points, int owned,
              bool own_surfaces);
 

@@ -13,8 +13,9 @@ namespace rbc {
 /// closer: for bodies instead of points, and for pairs of neighboring bins instead of blocks.
 class NeighborMotion {
  public:
-  /// From now on displacements count from `x`. Bodies are neighbors where their `centres` are nearer
-  /// to each other than `near`. Both have three numbers for each point, or body. `bodies` must stay.
+  /// From now on displacements count from `x`. Bodies are neighbors where their `centres` are
+  /// nearer to each other than `near`. Both have three numbers for each point, or body. `bodies`
+  /// must stay.
   void hold(const double *x, const NumberLists &bodies, const std::vector<double> &centres,
             double near);
 

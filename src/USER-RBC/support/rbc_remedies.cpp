@@ -100,7 +100,7 @@ std::string text(Remedy remedy, const Situation &now)
       return fmt::format("neighbor {:.3g} bin, and neigh_modify every 1 delay 0 check yes",
                          MORE * now.skin);
     case Remedy::repel:
-      return "a force that holds cells off plates and walls (plates yes of pair_style rbc/jkr); "
+      return "a force that holds cells off plates and walls (keywords of pair_style rbc/jkr); "
              "cells that start further from them";
     case Remedy::firm:
       return "a stronger repulsion of surfaces, or one of a longer range (pair_coeff of rbc/jkr)";
