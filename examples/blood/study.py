@@ -3,7 +3,8 @@
 Runs in.blood over a strain of 5 for each (six minutes of processor time in all), writes blood.csv
 to a folder. The series rbc_162, rbc_362 and rbc_642 are the same with these meshes, in smaller
 boxes and with steps of one length, `rkc auto` without `adapt` (an hour in all): meshes.csv. Series
-readme is the first scene of the top folder's README with these meshes: readme.csv.
+readme is the first scene of the top folder's README with these meshes: readme.csv. Series scene is
+in.blood as it is, with a finer mesh and with cells that adhere, over a strain of 10: scene.csv.
 
 study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1] [--only roma3]
 """
@@ -11,7 +12,6 @@ import itertools
 import re
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -24,12 +24,17 @@ KERNELS = "roma3", "peskin4"
 HEMATOCRITS = 0.2, 0.3, 0.4, 0.45
 RATES = 10, 100, 1000    # 1/s
 STRAIN = 5
-COLUMNS = "strain", "viscosity", "volume", "again", "seconds"
+COLUMNS = "strain", "viscosity", "volume", "again"
 
 MESHES = {"rbc_162": 0.65, "rbc_362": 0.5, "rbc_642": 0.4}    # fluid spacings, um: edges are 1.2 to 1.5 of them
 LENGTHS = {0.2: 18, 0.3: 16, 0.4: 14, 0.45: 14}               # of boxes with 8 to 12 cells, um
 GAP = 12
-MESH_COLUMNS = "through", *COLUMNS[:-1], "wrong", "warned"
+MESH_COLUMNS = "through", *COLUMNS, "wrong", "warned"
+
+SCENES = {"100 /s": {}, "100 /s rbc_362": {"shape": "rbc_362", "dx": 0.5}, "10 /s": {"rate": 10},
+          "10 /s adhesion": {"rate": 10, "adhesion": 2e-4}}
+SCENE_STRAIN = 10
+SCENE_COLUMNS = "peak", "late", *COLUMNS[2:]
 
 README_COLUMNS = "through", "strain", "again", "wrong", "warned"
 
@@ -56,14 +61,12 @@ def print_why(done):
 
 
 def run_blood(arguments, variables):
-    """Dictionary of MESH_COLUMNS and seconds; NaN for the viscosity of a run that stopped."""
+    """Dictionary of MESH_COLUMNS and SCENE_COLUMNS; NaN for the viscosity of a run that stopped."""
     with tempfile.TemporaryDirectory() as folder:
-        begin = time.monotonic()
         done = example_study.run_script(arguments, HERE / "in.blood", folder, variables)
-        seconds = time.monotonic() - begin
         table = read_table(Path(folder) / "blood.dat")
     lines = log_lines(done.stdout)
-    found = {"through": not done.returncode, "seconds": seconds, "viscosity": float("nan"),
+    found = {"through": not done.returncode, **dict.fromkeys(("viscosity", "peak", "late"), float("nan")),
              "strain": table["v_sheared"][-1] if len(table["v_sheared"]) else 0,
              "volume": max(abs(line[7] / lines[0][7] - 1) for line in lines),
              "again": lines[-1][9], "wrong": lines[-1][10], "warned": bool(warnings(done.stdout))}
@@ -71,6 +74,8 @@ def run_blood(arguments, variables):
         print_why(done)
     else:
         found["viscosity"] = settled(table, variables["strain"])
+        found["peak"] = table["v_relative"].max()
+        found["late"] = table["v_relative"][table["v_sheared"] > 0.5 * variables["strain"]].mean()
     return found
 
 
@@ -78,6 +83,12 @@ def measure(arguments, variables):
     """A row of COLUMNS."""
     found = run_blood(arguments, variables)
     return [[found[name] for name in COLUMNS]]
+
+
+def measure_scene(arguments, variables):
+    """A row of SCENE_COLUMNS."""
+    found = run_blood(arguments, variables)
+    return [[found[name] for name in SCENE_COLUMNS]]
 
 
 def measure_mesh(arguments, variables):
@@ -124,6 +135,11 @@ def cases():
                                                           "strain": STRAIN}
 
 
+def scene_cases():
+    for label, variables in SCENES.items():
+        yield "scene", label, {**variables, "strain": SCENE_STRAIN}
+
+
 def mesh_cases():
     for (mesh, dx), kernel, hematocrit, rate in itertools.product(MESHES.items(), KERNELS, HEMATOCRITS, RATES):
         yield mesh, f"{mesh} {kernel} {hematocrit:g} {rate}", {
@@ -148,8 +164,9 @@ def readme_cases():
 
 
 def main():
-    arguments = command_line.parse(example_study.options(__doc__, [*KERNELS, *MESHES, "readme"]), HERE)
+    arguments = command_line.parse(example_study.options(__doc__, [*KERNELS, "scene", *MESHES, "readme"]), HERE)
     for name, columns, runs, run in (("blood.csv", COLUMNS, cases(), measure),
+                                     ("scene.csv", SCENE_COLUMNS, scene_cases(), measure_scene),
                                      ("meshes.csv", MESH_COLUMNS, blood_cases(), measure_mesh),
                                      ("readme.csv", README_COLUMNS, readme_cases(), measure_readme)):
         table = example_study.run_cases(arguments, arguments.output / name, columns, runs, run)
