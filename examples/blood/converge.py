@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """How the viscosity of blood of 40 % at 100 and 10 /s depends on the grid, the mesh, the kernel and
 on `smooth` of the membranes: error against run time. Runs in.blood in a small box over a strain of
-5 for each (an hour of processor time in all, most of it for rbc_2562), writes convergence.csv to a
+5 for each (half an hour of processor time, most of it for rbc_2562), writes convergence.csv to a
 folder and prints the table of the README.
 
 converge.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1] [--only rbc_162 rbc_362 rbc_642]
@@ -64,7 +64,7 @@ def entry(table, kernel, resolution, rate, smooth):
         return "-"
     viscosity, seconds = case[-1]
     error = "" if finest is None else f"{100 * (viscosity / finest[-1][0] - 1):+.1f} %, "
-    return f"{viscosity:.2f}, {error}{seconds:.0f} s"
+    return f"{viscosity:.2f}, {error}{seconds:.2g} s"
 
 
 def print_table(table):
