@@ -212,6 +212,11 @@ void FixRBCMembrane::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix rbc/membrane cannot be used with run_style respa");
   if (update->whichflag == 2) error->all(FLERR, "Fix rbc/membrane cannot be used with minimize");
+  if (cells.is_smoothed() && modify->get_fix_by_style("^rbc/ib$").empty() && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix rbc/membrane {} smooth yes has no effect: there is no fix rbc/ib, whose "
+                   "fluid feels tractions",
+                   id);
   cells.start_run();
   check_apart();
   ask_for_ghosts();

@@ -104,6 +104,10 @@ class Errors(unittest.TestCase):
         self.assertIn("Expected boolean parameter instead of 'maybe'",
                       attempt(scene(membrane=SHEAR["membrane"] + " smooth maybe")).error)
 
+    def test_without_a_fluid(self):
+        alone = run(scene(membrane=SHEAR["membrane"] + " smooth yes", ib=None, fluid=None, thermo=None))
+        self.assertIn("Fix rbc/membrane mem smooth yes has no effect: there is no fix rbc/ib", alone.printed)
+
     def test_all_vertices_must_move(self):
         smooth = SHEAR["membrane"].replace("volume yes", "volume no smooth yes")
         part = "group some id 1:100\nfix ib some rbc/ib flow integrator midpoint\n"
