@@ -17,6 +17,7 @@ from program_table import folder_with  # noqa: E402
 TITLES = {"array": "drag of spheres in a cubic array,\nby volume fraction",
           "tube": "flow rate in a tube,\ndriven inside (0) or everywhere (1)",
           "sphere in tube": "drag of a sphere held in a tube,\nby a/R"}
+KEYS = "setting", "parameter", "kernel", "kind"
 LINES = {"points": "--", "sheets": "-"}
 MARKS = {"roma3": "o", "peskin4": "s"}
 
@@ -27,15 +28,17 @@ def main():
         rows = list(csv.DictReader(table))
     figure, axes = plt.subplots(1, 3, figsize=(12, 4), sharey=True, constrained_layout=True)
     for axis, (setting, title) in zip(axes, TITLES.items()):
-        parameters = list(dict.fromkeys(row["parameter"] for row in rows if row["setting"] == setting))
+        parameters = dict.fromkeys(row["parameter"] for row in rows if row["setting"] == setting)
         for number, parameter in enumerate(parameters):
             for kernel, mark in MARKS.items():
                 for kind, line in LINES.items():
-                    of = [row for row in rows if (row["setting"], row["parameter"], row["kernel"], row["kind"])
-                          == (setting, parameter, kernel, kind)]
-                    radius, error = ([float(row[name]) for row in of] for name in ("radius_over_dx", "error_percent"))
-                    axis.loglog(radius, [abs(e) for e in error], mark + line, color=f"C{number}", markersize=4,
-                                label=parameter if (kernel, kind) == ("roma3", "sheets") else None)
+                    wanted = (setting, parameter, kernel, kind)
+                    of = [row for row in rows if tuple(row[name] for name in KEYS) == wanted]
+                    radius = [float(row["radius_over_dx"]) for row in of]
+                    error = [float(row["error_percent"]) for row in of]
+                    label = parameter if (kernel, kind) == ("roma3", "sheets") else None
+                    axis.loglog(radius, [abs(e) for e in error], mark + line, color=f"C{number}",
+                                markersize=4, label=label)
                     print(f"{setting:15} {parameter:>7} {kernel:8} {kind:7}"
                           + "".join(f"  R/dx {r:g}: {e:.2f} %" for r, e in zip(radius, error)))
         axis.set(title=title, xlabel="radius / dx")

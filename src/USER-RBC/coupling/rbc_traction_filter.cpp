@@ -14,8 +14,8 @@ using namespace LAMMPS_NS;
 
 static constexpr double RESOLVED = 2.0;
 
-// how far rough tractions move vertices: no more than the grid would, so that timesteps stay as
-// they are
+// How far rough tractions move vertices: about as much as the grid moves them where edges are one
+// fluid cell long. More would make the membrane relax faster, and timesteps shorter.
 
 static constexpr double SLIP = 0.03;
 
