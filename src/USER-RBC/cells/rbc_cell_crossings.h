@@ -43,7 +43,6 @@ class CellCrossings : protected Pointers {
   void tell();
 
   rbc::Stopwatch &stopwatch() { return stopwatch_; }
-  const rbc::CrossingFinder::Counts &counts() const { return finder_.counts(); }
   double bytes() const { return static_cast<double>(finder_.bytes()); }
 
  private:

@@ -156,7 +156,6 @@ bool CrossingFinder::stay_apart(const Listed &listed, const double *x)
                              motion_.along(listed.pair.second, listed.line).highest >
                          -listed.gap)
     return true;
-  ++counts_.lines;
   return gap(x, corners(listed.pair.first, listed.fans), corners(listed.pair.second, listed.fans),
              listed.line) > 0;
 }
@@ -179,7 +178,6 @@ double CrossingFinder::needed_reach(const double *x)
 
 bool CrossingFinder::triangles_touched(Listed &listed, const double *x)
 {
-  ++counts_.searches;
   const double *const from = start_.data();
   const auto [first, second] = listed.pair;
   const auto first_start = places(from, scene_.triangles[first]),
@@ -190,7 +188,6 @@ bool CrossingFinder::triangles_touched(Listed &listed, const double *x)
   listed.apart = gap(from, a, b, listed.line) > 0 && gap(x, a, b, listed.line) > 0;
   if (listed.apart) return false;
 
-  ++counts_.motions;
   const auto first_end = places(x, scene_.triangles[first]),
              second_end = places(x, scene_.triangles[second]);
   MovingTriangle moving[2];
@@ -233,7 +230,6 @@ void CrossingFinder::list(const double *x, double reach)
   find_normals(x);
   near_.visit_pairs([&](int first, int second) { consider_fans(x, {first, second}); });
   current_ = true;
-  counts_.listed += static_cast<std::int64_t>(listed_.size());
 }
 
 void CrossingFinder::find_normals(const double *x)

@@ -55,12 +55,9 @@ class CrossingFinder {
   /// All that touch or intersect at `x`.
   std::vector<Pair> crossed(const double *x);
 
-  /// What was done so far.
+  /// How many steps were tested, and how often pairs were listed anew for it.
   struct Counts {
-    std::int64_t steps = 0, lists = 0, listed = 0;
-    std::int64_t lines = 0;       ///< tests along a pair's line
-    std::int64_t searches = 0;    ///< for another line
-    std::int64_t motions = 0;     ///< tests of how triangles move
+    std::int64_t steps = 0, lists = 0;
   };
   const Counts &counts() const { return counts_; }
 
