@@ -1,6 +1,8 @@
 #include "fluid/banded.h"
 #include "fluid/plate_modes.h"
 
+#include <algorithm>
+
 namespace fluid {
 
 namespace {
@@ -10,7 +12,8 @@ namespace {
 /// gives the part along from w, momentum along gives the pressure, and what is left for w is the
 /// pentadiagonal symmetric positive definite system
 ///   (q A_w + D^T A_c D) w = q f_w + kappa h D^T f_along,   q = (kappa h)^2,
-/// where A_w, A_c are the Helmholtz operators on faces and centres and D the difference in z.
+/// where A_w, A_c are the Helmholtz operators on faces and centres and D the difference in z. A
+/// source s adds s / kappa to the part along, and -A_c s / kappa to f_along.
 class CoupledModes : public PlateModes {
  public:
   CoupledModes(const Grid &grid, const Box &modes, double viscosity, double shift) :
@@ -21,7 +24,7 @@ class CoupledModes : public PlateModes {
 
  private:
   void solve_block(const Block &block, const std::array<View<Complex>, 3> &spectrum,
-                   const View<Complex> *pressure) override
+                   const View<Complex> *pressure, const View<Complex> *source) override
   {
     const int n = grid_.cells[2];
     const ImageFactors images = grid_.plate_conditions.factors();
@@ -32,11 +35,21 @@ class CoupledModes : public PlateModes {
     const Lanes a = shift_ + viscosity_ * kappa * kappa, q = kappa * kappa * h * h;
     const Lanes scale_w = q * scale, kappa_h = kappa * h, inverse_kappa_h = 1 / kappa_h;
 
+    const Lanes inverse_kappa = 1 / kappa;
+    const auto driven = [&](int k) {
+      return (scale * inverse_kappa) * block.load(*source, std::clamp(k, 0, n - 1));
+    };
+    const auto along_driven = [&](int k) {
+      const Modes below = k > 0 ? driven(k - 1) : images.lower * driven(k);
+      const Modes above = k < n - 1 ? driven(k + 1) : images.upper * driven(k);
+      return (a + 2 * b) * driven(k) - b * (below + above);
+    };
+
     across_.begin(a, b, images);
     vertical_.begin(a, q, b, images);
     for (int k = 0; k < n; ++k) {
       const Tangential force = block.load_tangential(spectrum, k, scale);
-      along_.set(k, force.along);
+      along_.set(k, source ? force.along - along_driven(k) : force.along);
       across_.set(k, force.across);
       across_.factor_row(k);
       across_.eliminate(k);
@@ -53,12 +66,12 @@ class CoupledModes : public PlateModes {
     for (int k = n - 1; k >= 0; --k) {
       across_.substitute(k);
       if (k > 0) vertical_.substitute(k);
-      block.store_tangential({continuity(k), across_[k]}, spectrum, k);
+      const Modes along = source ? continuity(k) + driven(k) : continuity(k);
+      block.store_tangential({along, across_[k]}, spectrum, k);
       block.store(vertical_[k], spectrum[2], k);
     }
     if (!pressure) return;
 
-    const Lanes inverse_kappa = 1 / kappa;
     for (int k = 0; k < n; ++k) {
       const Modes here = continuity(k);
       const Modes below = k > 0 ? continuity(k - 1) : images.lower * here;

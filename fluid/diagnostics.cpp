@@ -63,19 +63,21 @@ void find_tractions(const Flow &flow, const Forcing &forcing, FlowDiagnostics &m
 
 FlowDiagnostics diagnose(Flow &flow, const Forcing &forcing)
 {
-  flow.fill_ghosts();
+  const auto v = flow.fluid_velocity().views();
   const Grid &grid = flow.grid();
   const auto u = flow.velocity().views();
+  const ScalarField *const source = flow.source();
   std::array<double, 4> sums{};
   std::array<double, 2> largest{};
   for_each_cell(flow.brick(), [&](int i, int j, int k) {
     const Real3 low{u[0](i, j, k), u[1](i, j, k), u[2](i, j, k)};
     const Real3 high{u[0](i + 1, j, k), u[1](i, j + 1, k), u[2](i, j, k + 1)};
-    double speed2 = 0, divergence = 0;
+    double speed2 = 0, divergence = source ? -(*source)[0](i, j, k) : 0;
     for (int c = 0; c < 3; ++c) {
+      const double here = v[c](i, j, k), next = v[c](i + (c == 0), j + (c == 1), k + (c == 2));
       sums[c] += low[c];
-      sums[3] += 0.25 * (low[c] * low[c] + high[c] * high[c]);
-      speed2 += 0.25 * (low[c] + high[c]) * (low[c] + high[c]);
+      sums[3] += 0.25 * (here * here + next * next);
+      speed2 += 0.25 * (here + next) * (here + next);
       divergence += (high[c] - low[c]) / grid.spacing[c];
     }
     largest[0] = std::max(largest[0], std::sqrt(speed2));

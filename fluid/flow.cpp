@@ -6,10 +6,9 @@ namespace fluid {
 
 namespace {
 
-/// y += factor x over the brick and, where both are stored alike, its ghosts.
-void add(const Box &brick, const VectorField &y, double factor, const VectorField &x)
+/// y += factor x over a box.
+void add(const VectorField &y, double factor, const VectorField &x, const Box &box)
 {
-  const Box &box = x.box() == y.box() ? x.box() : brick;
   const int first = box.lo[0], n = box.extent(0);
   for (int c = 0; c < 3; ++c)
     for_each_row(box, [&, from = x[c], to = y[c]](int j, int k) {
@@ -41,20 +40,75 @@ void Flow::clear_force()
 
 int Flow::spread(const MarkerSet &markers, const double *force, double factor)
 {
-  return fluid::spread(grid_, markers, force, factor, total_.force, reach(markers.kind));
+  return spread(markers, force, factor, total_);
+}
+
+int Flow::spread(const MarkerSet &markers, const double *force, double factor, ForcedVelocity &flow)
+{
+  const bool layers = markers.kind == MarkerKind::layers;
+  if (layers) start_layers(markers.kernel, flow);
+  return fluid::spread(grid_, markers, force, factor, layers ? flow.of_layers : flow.force,
+                       reach(markers.kind));
+}
+
+int Flow::spread(const MarkerSet &markers, const DoubleLayer &layer)
+{
+  return spread(markers, layer, total_);
+}
+
+int Flow::spread(const MarkerSet &markers, const DoubleLayer &layer, ForcedVelocity &flow)
+{
+  assert(markers.kind == MarkerKind::layers);
+  start_layers(markers.kernel, flow);
+  return fluid::spread(grid_, markers, layer, equations_.viscosity, flow.double_layer, flow.source,
+                       halo_.box());
+}
+
+void Flow::start_layers(KernelKind kernel, ForcedVelocity &flow)
+{
+  assert(equations_.inertia == Inertia::none);
+  flow.layered = true;
+  flow.kernel = kernel;
+  if (flow.source.bytes()) return;
+  flow.of_layers = VectorField(halo_.box());
+  flow.double_layer = VectorField(halo_.box());
+  flow.source = ScalarField(halo_.box());
 }
 
 /// The box inside which kernels must stay.
 Box Flow::reach(MarkerKind kind) const
 {
-  const int layers = kind == MarkerKind::sheets ? SheetVelocity::layers : 0;
+  const int layers = kind == MarkerKind::points ? 0 : SheetVelocity::layers;
   return without_layers(halo_.box(), grid_, layers);
 }
 
 void Flow::accumulate_ghosts()
 {
-  if (grid_.plates) fold_force(grid_, total_.force, total_.into_lower, total_.into_upper);
-  halo_.accumulate(total_.force.views());
+  accumulate_ghosts_of(total_);
+}
+
+void Flow::accumulate_ghosts_of(ForcedVelocity &flow)
+{
+  if (grid_.plates) fold_force(grid_, flow.force, flow.into_lower, flow.into_upper);
+  halo_.accumulate(flow.force.views());
+  if (flow.layered) add_layers(flow);
+}
+
+/// Adds what layers spread to the force: their forces corrected as the velocity of sheets is, which
+/// commutes with the solve, and their double layer.
+void Flow::add_layers(ForcedVelocity &flow)
+{
+  if (grid_.plates) {
+    fold_force(grid_, flow.of_layers, flow.into_lower, flow.into_upper);
+    fold_force(grid_, flow.double_layer, flow.into_lower, flow.into_upper);
+    fold_source(grid_, flow.source);
+  }
+  halo_.accumulate(flow.of_layers.views());
+  halo_.accumulate(flow.double_layer.views());
+  halo_.accumulate(flow.source.views());
+  fill_ghosts_of(flow.of_layers, {});
+  add(flow.force, 1, sheets_.of(flow.of_layers, flow.kernel, grid_, {}), brick());
+  add(flow.force, 1, flow.double_layer, brick());
 }
 
 void Flow::solve(const Forcing &forcing)
@@ -68,12 +122,13 @@ void Flow::solve(const Forcing &forcing)
 void Flow::solve_now(const VectorField &rhs, const Forcing &forcing)
 {
   solved_forcing_ = forcing;
-  solve_for(total_.velocity, rhs, forcing);
+  solve_for(total_.velocity, rhs, forcing, total_.layered ? &total_.source : nullptr);
 }
 
-void Flow::solve_for(const VectorField &velocity, const VectorField &rhs, const Forcing &forcing)
+void Flow::solve_for(const VectorField &velocity, const VectorField &rhs, const Forcing &forcing,
+                     const ScalarField *source)
 {
-  solver_.velocity(rhs, forcing, velocity);
+  solver_.velocity(rhs, forcing, velocity, source);
   ++solves_;
 }
 
@@ -192,7 +247,7 @@ void Flow::fill_force_ghosts()
 const VectorField &Flow::seen_by(const MarkerSet &markers, const VectorField &velocity,
                                  const PlateVelocities &plates)
 {
-  if (markers.kind == MarkerKind::points) return velocity;
+  if (markers.kind != MarkerKind::sheets) return velocity;
   return sheets_.of(velocity, markers.kernel, grid_, plates);
 }
 
@@ -202,18 +257,19 @@ void Flow::interpolate(const MarkerSet &markers, double *velocity)
   fluid::interpolate(grid_, markers, seen_by(markers, total_.velocity, plates_), velocity);
 }
 
-int Flow::apply_mobility(const MarkerSet &markers, const double *force, double *velocity)
+int Flow::apply_mobility(const MarkerSet &markers, const double *force, double *velocity,
+                         const DoubleLayer *layer, const Real3 &mean)
 {
   if (!mobility_.velocity.bytes()) {
-    mobility_.force = VectorField(halo_.box());
+    if (!mobility_.force.bytes()) mobility_.force = VectorField(halo_.box());
     mobility_.velocity = VectorField(halo_.box());
   }
   mobility_.clear_force();
-  const int outside =
-      fluid::spread(grid_, markers, force, 1.0, mobility_.force, reach(markers.kind));
-  if (grid_.plates) fold_force(grid_, mobility_.force, mobility_.into_lower, mobility_.into_upper);
-  halo_.accumulate(mobility_.force.views());
-  solve_for(mobility_.velocity, mobility_.force, {});
+  int outside = force ? spread(markers, force, 1.0, mobility_) : -1;
+  if (layer && outside < 0) outside = spread(markers, *layer, mobility_);
+  accumulate_ghosts_of(mobility_);
+  solve_for(mobility_.velocity, mobility_.force, {{}, {0, 0, 0}, mean},
+            mobility_.layered ? &mobility_.source : nullptr);
   fill_ghosts_of(mobility_.velocity, {});
   if (outside < 0)
     fluid::interpolate(grid_, markers, seen_by(markers, mobility_.velocity, {}), velocity);
@@ -222,13 +278,53 @@ int Flow::apply_mobility(const MarkerSet &markers, const double *force, double *
 
 void Flow::add_mobility_flow(double factor)
 {
-  add(brick(), total_.force, factor, mobility_.force);
-  if (equations_.inertia == Inertia::convective) add(brick(), rhs_, factor, mobility_.force);
-  add(brick(), total_.velocity, factor, mobility_.velocity);
+  // ghosts, too, where both fields have them
+  const Box &stored = total_.velocity.box();
+  add(total_.force, factor, mobility_.force, stored);
+  if (equations_.inertia == Inertia::convective) add(rhs_, factor, mobility_.force, brick());
+  add(total_.velocity, factor, mobility_.velocity, stored);
   for (int c = 0; c < 3; ++c) {
     total_.into_lower[c] += factor * mobility_.into_lower[c];
     total_.into_upper[c] += factor * mobility_.into_upper[c];
   }
+}
+
+const VectorField &Flow::fluid_velocity()
+{
+  fill_ghosts();
+  if (!total_.layered) return total_.velocity;
+  if (!fluid_velocity_.bytes()) fluid_velocity_ = VectorField(halo_.box());
+  for (int c = 0; c < 3; ++c) {
+    Box box = halo_.box();
+    if (!box.empty()) ++box.lo[c];
+    for_each_cell(box, [&, w = total_.velocity[c], u = fluid_velocity_[c],
+                        excess = inside_[0]](int i, int j, int k) {
+      const double below = excess(i - (c == 0), j - (c == 1), k - (c == 2));
+      u(i, j, k) = w(i, j, k) / (1 + 0.5 * (below + excess(i, j, k)));
+    });
+  }
+  return fluid_velocity_;
+}
+
+/// The force of such surfaces is a gradient, and what they drive is no flow but its pressure.
+int Flow::find_inside(const MarkerSet &markers, const double *step, double mean)
+{
+  if (!mobility_.force.bytes()) mobility_.force = VectorField(halo_.box());
+  if (!inside_.bytes()) inside_ = ScalarField(halo_.box());
+  mobility_.clear_force();
+  const int outside = fluid::spread(grid_, markers, step, -1.0, mobility_.force, halo_.box());
+  accumulate_ghosts_of(mobility_);
+  solver_.pressure(mobility_.force, {}, inside_);
+  ++solves_;
+  for_each_cell(brick(), [&, value = inside_[0]](int i, int j, int k) { value(i, j, k) += mean; });
+  halo_.fill(inside_.views());
+  return outside;
+}
+
+const ScalarField &Flow::inside()
+{
+  if (!inside_.bytes()) inside_ = ScalarField(halo_.box());
+  return inside_;
 }
 
 void Flow::add_mean(const Real3 &velocity)
@@ -262,10 +358,13 @@ Traffic Flow::traffic() const
 
 std::size_t Flow::bytes() const
 {
-  std::size_t sum = pressure_.bytes() + halo_.bytes() + solver_.bytes() + sheets_.bytes();
-  for (const VectorField *field :
-       {&total_.force, &total_.velocity, &previous_, &rhs_, &mobility_.force, &mobility_.velocity})
-    sum += field->bytes();
+  std::size_t sum = pressure_.bytes() + halo_.bytes() + solver_.bytes() + sheets_.bytes() +
+                    inside_.bytes() + total_.source.bytes() + mobility_.source.bytes();
+  for (const ForcedVelocity *flow : {&total_, &mobility_})
+    for (const VectorField *field :
+         {&flow->force, &flow->velocity, &flow->of_layers, &flow->double_layer})
+      sum += field->bytes();
+  for (const VectorField *field : {&previous_, &rhs_, &fluid_velocity_}) sum += field->bytes();
   return sum;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fluid/advection.h"
+#include "fluid/double_layer.h"
 #include "fluid/flow_equations.h"
 #include "fluid/plates.h"
 #include "fluid/sheet_velocity.h"
@@ -29,6 +30,11 @@ class Flow {
   /// Stops at the first marker whose kernel leaves the ghost layers and returns its row, or -1. For
   /// sheets the kernels must stay SheetVelocity::layers further inside. Not collective.
   int spread(const MarkerSet &markers, const double *force, double factor);
+
+  /// Adds the double layer of markers of this kind; without inertia. The velocity solved for is
+  /// then that times the relative viscosity, see DoubleLayer, and so is the mean velocity of the
+  /// forcing. Returns what spread does. Not collective.
+  int spread(const MarkerSet &markers, const DoubleLayer &layer);
 
   /// Adds the ghosts' share of the force to its owners: the exchange between spread and solve.
   void accumulate_ghosts();
@@ -64,8 +70,21 @@ class Flow {
   /// first marker whose kernel leaves the ghost layers, or -1; the velocities are valid only if all
   /// ranks return -1. Collective. add_mobility_flow() then adds `factor` times these forces and
   /// their flow to the flow.
-  int apply_mobility(const MarkerSet &markers, const double *force, double *velocity);
+  /// With `layer` the double layer of these velocities adds to the flow, and `force` may be null;
+  /// `mean` is the mean of what is solved for.
+  int apply_mobility(const MarkerSet &markers, const double *force, double *velocity,
+                     const DoubleLayer *layer = nullptr, const Real3 &mean = {0, 0, 0});
   void add_mobility_flow(double factor);
+
+  /// Finds the function of space that is zero outside of closed surfaces and falls across them, in
+  /// the direction of their outward normal, by the length of `step` over the area: rows as the
+  /// markers', a number times area times normal. `mean` is its mean over the grid. Costs a solve,
+  /// and memory at the first call. Returns what spread does; valid if that is -1 on all ranks.
+  /// Collective.
+  int find_inside(const MarkerSet &markers, const double *step, double mean);
+
+  /// The function at the centres of cells, ghosts included; zero before the first find_inside().
+  const ScalarField &inside();
 
   /// Adds a uniform velocity, ghosts included: triply periodic and without inertia only, where no
   /// force drives the mean.
@@ -82,6 +101,14 @@ class Flow {
   Real3 mean_force() const;
 
   const VectorField &velocity() const { return total_.velocity; }
+
+  /// The velocity of the fluid on the brick and the faces around it: velocity() with its ghosts
+  /// filled, but with double layers that over the relative viscosity of the last find_inside().
+  /// Valid until the flow changes. Collective.
+  const VectorField &fluid_velocity();
+
+  /// Divergence of velocity() that double layers ask for, null without.
+  const ScalarField *source() const { return total_.layered ? &total_.source : nullptr; }
 
   /// Sets a velocity to start from, without divergence: velocity(c, i, j, k) on the brick's faces.
   template <typename Value> void set_velocity(Value value)
@@ -116,11 +143,22 @@ class Flow {
   /// Forces and the velocity that they give, with what of the forces goes straight into the plates.
   struct ForcedVelocity {
     VectorField force, velocity;
+    VectorField of_layers;    ///< forces of markers that are layers, to be corrected
+    VectorField double_layer;
+    ScalarField source;    ///< of double layers; these fields are empty before the first
+    bool layered = false;
+    KernelKind kernel = default_kernel;    ///< of the layers
     Real3 into_lower{0, 0, 0}, into_upper{0, 0, 0};
 
     void clear_force()
     {
       force.clear();
+      if (layered) {
+        of_layers.clear();
+        double_layer.clear();
+        source.clear();
+      }
+      layered = false;
       into_lower = into_upper = {0, 0, 0};
     }
   };
@@ -129,7 +167,13 @@ class Flow {
   void assemble(const VectorField &velocity, const VectorField &result) const;
   void set_shift(double shift);
   void solve_now(const VectorField &rhs, const Forcing &forcing);
-  void solve_for(const VectorField &velocity, const VectorField &rhs, const Forcing &forcing);
+  void solve_for(const VectorField &velocity, const VectorField &rhs, const Forcing &forcing,
+                 const ScalarField *source = nullptr);
+  int spread(const MarkerSet &markers, const double *force, double factor, ForcedVelocity &flow);
+  int spread(const MarkerSet &markers, const DoubleLayer &layer, ForcedVelocity &flow);
+  void start_layers(KernelKind kernel, ForcedVelocity &flow);
+  void add_layers(ForcedVelocity &flow);
+  void accumulate_ghosts_of(ForcedVelocity &flow);
   void fill_ghosts_of(const VectorField &velocity, const PlateVelocities &plates);
   Box reach(MarkerKind kind) const;
   const VectorField &seen_by(const MarkerSet &markers, const VectorField &velocity,
@@ -156,7 +200,9 @@ class Flow {
   bool stepped_ = false;    ///< start_step() was called since construction or restore()
 
   ScalarField pressure_;
-  ForcedVelocity mobility_;    ///< of the last apply_mobility
+  ForcedVelocity mobility_;    ///< of the last apply_mobility; scratch of find_inside
+  ScalarField inside_;
+  VectorField fluid_velocity_;    ///< where it is not the velocity solved for
   SheetVelocity sheets_;
   StokesSolver solver_;
 };

@@ -261,6 +261,7 @@ std::size_t Fourier::bytes() const
          y_to_z_.bytes();
 }
 
+template void Fourier::forward<1>(const std::array<View<double>, 1> &);
 template void Fourier::forward<3>(const std::array<View<double>, 3> &);
 template void Fourier::backward<3>(const std::array<View<double>, 3> &);
 template void Fourier::backward<1>(const std::array<View<double>, 1> &);

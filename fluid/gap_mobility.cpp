@@ -93,6 +93,45 @@ double missing_slide(const std::vector<double> &mobility, double gap)
   return gap - 2 * sum * wavenumber_step / pi;
 }
 
+// ---- a sheet and a double layer: waves of layers across them
+
+/// What a sheet sees of layers, as sheet_mobility(); 1 / k for long waves.
+template <class Kernel> std::vector<double> layer_waves(const std::array<double, 3> &normal)
+{
+  std::vector<double> seen;
+  for (double k = wavenumber_step / 2; k < largest_wavenumber; k += wavenumber_step) {
+    double kernel = 1, differences = 0, slope = 0;
+    for (double along : normal) {
+      if (along == 0) continue;
+      const double difference = 2 * std::sin(k * along / 2);
+      kernel *= transform<Kernel>(k * along);
+      differences += difference * difference;
+      slope += along * difference;
+    }
+    seen.push_back(kernel * kernel * slope / differences);
+  }
+  return seen;
+}
+
+template <class Kernel> std::vector<double> mean_layer_waves()
+{
+  std::vector<double> mean;
+  for (const Direction &direction : directions()) {
+    const auto seen = layer_waves<Kernel>(direction.normal);
+    mean.resize(seen.size());
+    for (std::size_t n = 0; n < mean.size(); ++n) mean[n] += direction.weight * seen[n];
+  }
+  return mean;
+}
+
+double share_across(const std::vector<double> &seen, double gap)
+{
+  double sum = 0;
+  for (std::size_t n = 0; n < seen.size(); ++n)
+    sum += seen[n] * std::sin((static_cast<double>(n) + 0.5) * wavenumber_step * gap);
+  return 0.5 - sum * wavenumber_step / pi;
+}
+
 // ---- a sheet and a plate half a cell before the first point of the grid
 
 constexpr int points = 10;
@@ -166,6 +205,15 @@ template <class Kernel> void GapMobility::fill()
     return missing_slide(mobility, gap);
   });
   plate_ = make(missing_slide_at_plate<Kernel>);
+
+  const auto share = [seen = mean_layer_waves<Kernel>()](double gap) {
+    return share_across(seen, gap);
+  };
+  share_.range = find_range(share);
+  const int intervals = static_cast<int>(std::lround(share_.range * intervals_per_cell));
+  for (int n = 0; n < intervals; ++n)
+    share_.value.push_back(std::max(0.0, share(static_cast<double>(n) / intervals_per_cell)));
+  share_.value.push_back(0);
 }
 
 GapMobility::GapMobility(KernelKind kernel)

@@ -30,6 +30,11 @@ class GapMobility {
   double slide_at_plate(double gap) const { return plate_.at(gap); }
   double plate_range() const { return plate_.range; }
 
+  /// Share of a double layer (see DoubleLayer) that kernels see across a gap, where they should see
+  /// none: half of it without a gap, 0 from share_range() on.
+  double share(double gap) const { return share_.at(gap); }
+  double share_range() const { return share_.range; }
+
  private:
   /// A function tabulated from 0 to `range`.
   struct Table {
@@ -39,7 +44,7 @@ class GapMobility {
     double at(double gap) const;
   };
 
-  Table slide_, plate_;
+  Table slide_, plate_, share_;
 
   template <class Kernel> void fill();
 };

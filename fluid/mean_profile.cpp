@@ -11,7 +11,7 @@ MeanProfile::MeanProfile(const Grid &grid, double viscosity) :
 }
 
 void MeanProfile::solve(const std::array<View<Complex>, 3> &force, double shift,
-                        const Forcing &forcing)
+                        const Forcing &forcing, const View<Complex> *source)
 {
   const int n = grid_.cells[2];
   const double h = grid_.spacing[2], b = viscosity_ / (h * h);
@@ -31,6 +31,9 @@ void MeanProfile::solve(const std::array<View<Complex>, 3> &force, double shift,
     for (int k = n - 2; k >= 0; --k) u[k] += ratio_[k] * u[k + 1];
   }
 
+  velocity_[2].assign(n, 0.0);
+  if (source) set_vertical(*source, h * scale);
+
   double mean = 0;
   for (int k = 1; k < n; ++k) {
     const double gradient = force[2](0, 0, k).real() * scale + forcing.body[2];
@@ -40,12 +43,22 @@ void MeanProfile::solve(const std::array<View<Complex>, 3> &force, double shift,
   pressure_offset_ = mean;
 }
 
+/// Continuity from plate to plate; what the planes do not lose among each other is taken evenly
+/// from all.
+void MeanProfile::set_vertical(const View<Complex> &source, double scale)
+{
+  const int n = grid_.cells[2];
+  double total = 0;
+  for (int k = 0; k < n; ++k) total += scale * source(0, 0, k).real();
+  for (int k = 1; k < n; ++k)
+    velocity_[2][k] = velocity_[2][k - 1] + scale * source(0, 0, k - 1).real() - total / n;
+}
+
 void MeanProfile::store(const std::array<View<Complex>, 3> &velocity,
                         const View<Complex> *pressure) const
 {
   for (int k = 0; k < grid_.cells[2]; ++k) {
-    for (int c = 0; c < 2; ++c) velocity[c](0, 0, k) = velocity_[c][k];
-    velocity[2](0, 0, k) = 0;
+    for (int c = 0; c < 3; ++c) velocity[c](0, 0, k) = velocity_[c][k];
     if (pressure) (*pressure)(0, 0, k) = pressure_[k] - pressure_offset_;
   }
 }

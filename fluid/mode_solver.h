@@ -7,7 +7,7 @@
 
 namespace fluid {
 
-/// Solves the discrete problem (shift - viscosity lap) u + grad p = f, div u = 0 on the staggered
+/// Solves the discrete problem (shift - viscosity lap) u + grad p = f, div u = s on the staggered
 /// grid, mode by mode in x and y.
 class ModeSolver {
  public:
@@ -15,8 +15,10 @@ class ModeSolver {
 
   /// Replaces the modes of the force density in `spectrum` by those of the velocity, normalised for
   /// the unnormalised backward transform. Where `pressure` is given its modes are written too.
+  /// `source` holds the modes of s; without it s is zero. A projection knows no sources. The mean
+  /// of s does not count.
   virtual void solve(const std::array<View<Complex>, 3> &spectrum, const Forcing &forcing,
-                     const View<Complex> *pressure) = 0;
+                     const View<Complex> *pressure, const View<Complex> *source) = 0;
 
   virtual void set_shift(double shift) = 0;
 

@@ -11,9 +11,9 @@ constexpr int groups = 4, width = groups * lanes;
 // An odd number of cache lines: powers of two would share few sets.
 constexpr int stride = width + 4;
 
-/// With all directions transformed, momentum and continuity are f = s u + conj(d) p and d.u = 0,
-/// where d is the symbol of the difference from faces to centres (Wavenumbers) and s that of the
-/// Helmholtz operator.
+/// With all directions transformed, momentum and continuity are f = a u + conj(d) p and d.u = -s,
+/// where d is minus the symbol of the difference from faces to centres (Wavenumbers), a that of the
+/// Helmholtz operator and s the source.
 class PeriodicModes : public ModeSolver {
  public:
   PeriodicModes(const Grid &grid, const Box &modes, double viscosity, double shift,
@@ -39,7 +39,7 @@ class PeriodicModes : public ModeSolver {
   void set_shift(double shift) override { shift_ = shift; }
 
   void solve(const std::array<View<Complex>, 3> &spectrum, const Forcing &forcing,
-             const View<Complex> *pressure) override
+             const View<Complex> *pressure, const View<Complex> *source) override
   {
     const int columns = modes_.empty() ? 0 : modes_.extent(0) * modes_.extent(1);
     for (int first = 0; first < columns; first += width) {
@@ -48,7 +48,11 @@ class PeriodicModes : public ModeSolver {
         load(spectrum[c], first, count, block_[c]);
         transform(forward_, block_[c]);
       }
-      for (int group = 0; group < groups; ++group) project(first, count, group);
+      if (source) {
+        load(*source, first, count, block_[3]);
+        transform(forward_, block_[3]);
+      }
+      for (int group = 0; group < groups; ++group) project(first, count, group, source != nullptr);
       if (first == 0 && modes_.contains({0, 0, 0})) set_mean(forcing);
       for (int c = 0; c < 3; ++c) {
         transform(backward_, block_[c]);
@@ -86,7 +90,7 @@ class PeriodicModes : public ModeSolver {
                   &to(modes_.lo[0], modes_.lo[1], k) + first);
   }
 
-  void project(int first, int count, int group) const
+  void project(int first, int count, int group, bool has_source) const
   {
     Modes dx, dy;
     Lanes square_xy;
@@ -109,9 +113,17 @@ class PeriodicModes : public ModeSolver {
 
       const Modes fx = f(0), fy = f(1), fz = f(2);
       const Modes p = inverse_square * (dx * fx + dy * fy + dz * fz);
-      (inverse * (fx - conj(dx) * p)).store(block_[0].data() + offset);
-      (inverse * (fy - conj(dy) * p)).store(block_[1].data() + offset);
-      (inverse * (fz - conj(dz) * p)).store(block_[2].data() + offset);
+      Modes ux = inverse * (fx - conj(dx) * p), uy = inverse * (fy - conj(dy) * p),
+            uz = inverse * (fz - conj(dz) * p);
+      if (has_source) {
+        const Modes potential = (normalisation * inverse_square) * over_i(f(3));
+        ux = ux + conj(dx) * potential;
+        uy = uy + conj(dy) * potential;
+        uz = uz + conj(dz) * potential;
+      }
+      ux.store(block_[0].data() + offset);
+      uy.store(block_[1].data() + offset);
+      uz.store(block_[2].data() + offset);
       (normalisation * over_i(p)).store(block_[3].data() + offset);
     }
   }
@@ -132,7 +144,7 @@ class PeriodicModes : public ModeSolver {
   double viscosity_, shift_;
   bool hold_mean_;
   Wavenumbers x_, y_, z_;
-  std::array<Buffer<Complex>, 4> block_;    ///< force, then velocity; pressure
+  std::array<Buffer<Complex>, 4> block_;    ///< force, then velocity; source, then pressure
   Plan forward_, backward_;
 };
 

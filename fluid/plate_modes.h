@@ -18,13 +18,14 @@ class PlateModes : public ModeSolver {
   void set_shift(double shift) override { shift_ = shift; }
 
   void solve(const std::array<View<Complex>, 3> &spectrum, const Forcing &forcing,
-             const View<Complex> *pressure) override
+             const View<Complex> *pressure, const View<Complex> *source) override
   {
     const bool mean = modes_.contains({0, 0, 0});
-    if (mean) mean_.solve(spectrum, shift_, forcing);
+    if (mean) mean_.solve(spectrum, shift_, forcing, source);
     const int columns = modes_.empty() ? 0 : modes_.extent(0) * modes_.extent(1);
     for (int first = 0; first < columns; first += lanes)
-      solve_block(Block(*this, first, std::min(lanes, columns - first)), spectrum, pressure);
+      solve_block(Block(*this, first, std::min(lanes, columns - first)), spectrum, pressure,
+                  source);
     if (mean) mean_.store(spectrum, pressure);
   }
 
@@ -81,7 +82,7 @@ class PlateModes : public ModeSolver {
   };
 
   virtual void solve_block(const Block &block, const std::array<View<Complex>, 3> &spectrum,
-                           const View<Complex> *pressure) = 0;
+                           const View<Complex> *pressure, const View<Complex> *source) = 0;
 
   /// Of the unnormalised transforms in x and y.
   double scale() const { return 1.0 / (double(grid_.cells[0]) * grid_.cells[1]); }

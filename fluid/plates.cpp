@@ -99,4 +99,21 @@ void fold_force(const Grid &grid, const VectorField &force, Real3 &lower, Real3 
   }
 }
 
+void fold_source(const Grid &grid, const ScalarField &source)
+{
+  const Box &box = source.box();
+  const View<double> s = source[0];
+  for (bool upper : {false, true}) {
+    if (!reaches(grid, box, upper)) continue;
+    for (int layer = 1; layer <= planes_beyond(0, upper); ++layer) {
+      const auto [beyond, inside] = mirrored(grid, 0, upper, layer);
+      if (beyond < box.lo[2] || beyond >= box.hi[2]) continue;
+      for_each_in_plane(box, [&, beyond = beyond, inside = inside](int i, int j) {
+        s(i, j, inside) += s(i, j, beyond);
+        s(i, j, beyond) = 0;
+      });
+    }
+  }
+}
+
 }    // namespace fluid

@@ -17,4 +17,7 @@ void reflect_velocity(const Grid &grid, const PlateVelocities &plates, const Vec
 /// into each plate, so that grid and plates together receive all that was spread.
 void fold_force(const Grid &grid, const VectorField &force, Real3 &lower, Real3 &upper);
 
+/// The same for a source at centres of cells: beyond a plate it is folded back onto its image.
+void fold_source(const Grid &grid, const ScalarField &source);
+
 }    // namespace fluid

@@ -1,6 +1,8 @@
 #include "fluid/banded.h"
 #include "fluid/plate_modes.h"
 
+#include <cassert>
+
 namespace fluid {
 
 namespace {
@@ -20,15 +22,16 @@ class ProjectedModes : public PlateModes {
   const Components<Complex, 1> *kept_pressure() const override { return &kept_; }
 
   void solve(const std::array<View<Complex>, 3> &spectrum, const Forcing &forcing,
-             const View<Complex> *) override
+             const View<Complex> * /*pressure*/, const View<Complex> *source) override
   {
+    assert(!source);
     const View<Complex> kept = kept_[0];
-    PlateModes::solve(spectrum, forcing, &kept);
+    PlateModes::solve(spectrum, forcing, &kept, source);
   }
 
  private:
   void solve_block(const Block &block, const std::array<View<Complex>, 3> &spectrum,
-                   const View<Complex> *pressure) override
+                   const View<Complex> *pressure, const View<Complex> * /*source*/) override
   {
     const int n = grid_.cells[2];
     const ImageFactors images = grid_.plate_conditions.factors();

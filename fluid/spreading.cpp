@@ -1,8 +1,6 @@
 #include "fluid/spreading.h"
 
-#include "fluid/kernel.h"
-
-#include <Eigen/Core>
+#include "fluid/marker_weights.h"
 
 namespace fluid {
 
@@ -10,27 +8,6 @@ namespace {
 
 using Row = Eigen::Array4d;
 using RowMap = Eigen::Map<Eigen::Array4d>;
-
-/// Kernel weights of one marker in one direction, for points on faces and on centres.
-template <typename Kernel> struct Weights {
-  int first_face, first_centre;
-  Row face, centre;
-
-  Weights(double x, double origin, double inverse_spacing)
-  {
-    const double s = (x - origin) * inverse_spacing;
-    first_face = Kernel::weights(s, face.data());
-    first_centre = Kernel::weights(s - 0.5, centre.data());
-  }
-
-  /// The kernel stays inside lo <= index < hi, padded rows of four included where `padded`.
-  bool inside(int lo, int hi, bool padded) const
-  {
-    const int width = padded ? 4 : Kernel::width;
-    return std::min(first_face, first_centre) >= lo &&
-           std::max(first_face, first_centre) + width <= hi;
-  }
-};
 
 template <typename Kernel> struct Stencil {
   std::array<Weights<Kernel>, 3> w;
@@ -63,19 +40,6 @@ template <typename Kernel> struct Stencil {
 
   const Row &row_weights(int c) const { return c == 0 ? w[0].face : w[0].centre; }
 };
-
-Real3 inverse(const Real3 &spacing)
-{
-  return {1 / spacing[0], 1 / spacing[1], 1 / spacing[2]};
-}
-
-/// The position is a number and so near the grid that indices are integers.
-bool near(const double *x, const Grid &grid, const Real3 &inverse_spacing)
-{
-  for (int d = 0; d < 3; ++d)
-    if (!(std::abs((x[d] - grid.origin[d]) * inverse_spacing[d]) < 1e9)) return false;
-  return true;
-}
 
 template <typename Kernel>
 int spread_with(const Grid &grid, const MarkerSet &markers, const double *applied, double factor,

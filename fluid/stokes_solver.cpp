@@ -18,10 +18,16 @@ std::array<View<Complex>, 3> StokesSolver::spectrum() const
 }
 
 void StokesSolver::velocity(const VectorField &force, const Forcing &forcing,
-                            const VectorField &velocity)
+                            const VectorField &velocity, const ScalarField *source)
 {
+  if (source) {
+    if (!source_modes_.bytes()) source_modes_ = Components<Complex, 1>(fourier_.modes());
+    fourier_.forward(source->views());
+    std::copy_n(fourier_.spectrum(0).data, fourier_.modes().size(), source_modes_[0].data);
+  }
+  const View<Complex> source_modes = source_modes_[0];
   fourier_.forward(force.views());
-  modes_->solve(spectrum(), forcing, nullptr);
+  modes_->solve(spectrum(), forcing, nullptr, source ? &source_modes : nullptr);
   fourier_.backward(velocity.views());
 }
 
@@ -33,7 +39,7 @@ void StokesSolver::pressure(const VectorField &force, const Forcing &forcing,
   const View<Complex> modes = kept ? (*kept)[0] : pressure_modes_[0];
   if (!kept) {
     fourier_.forward(force.views());
-    modes_->solve(spectrum(), forcing, &modes);
+    modes_->solve(spectrum(), forcing, &modes, nullptr);
   }
   std::copy_n(modes.data, modes.box.size(), fourier_.spectrum(0).data);
   fourier_.backward(pressure.views());
@@ -42,7 +48,8 @@ void StokesSolver::pressure(const VectorField &force, const Forcing &forcing,
 std::size_t StokesSolver::bytes() const
 {
   const Components<Complex, 1> *const kept = modes_->kept_pressure();
-  return fourier_.bytes() + pressure_modes_.bytes() + (kept ? kept->bytes() : 0);
+  return fourier_.bytes() + pressure_modes_.bytes() + source_modes_.bytes() +
+         (kept ? kept->bytes() : 0);
 }
 
 }    // namespace fluid

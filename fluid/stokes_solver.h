@@ -5,7 +5,7 @@
 
 namespace fluid {
 
-/// Velocity (and pressure) of (shift - viscosity lap) u + grad p = f, div u = 0 for a force density
+/// Velocity (and pressure) of (shift - viscosity lap) u + grad p = f, div u = s for a force density
 /// on the faces of a distributed staggered grid: exact for the discrete equations, but by
 /// projection between plates.
 class StokesSolver {
@@ -17,8 +17,10 @@ class StokesSolver {
   void set_shift(double shift) { modes_->set_shift(shift); }
 
   /// Sets the velocity on this rank's brick from the force on all bricks; they may be the same
-  /// field.
-  void velocity(const VectorField &force, const Forcing &forcing, const VectorField &velocity);
+  /// field. `source` is s on this rank's brick, null where it is zero; a projection takes none. It
+  /// costs a transform, and memory at the first call.
+  void velocity(const VectorField &force, const Forcing &forcing, const VectorField &velocity,
+                const ScalarField *source = nullptr);
 
   /// Sets the pressure (mean zero) that belongs to the force; costs a solve, and memory at the
   /// first call. That of a projection is the one of the last solve.
@@ -37,7 +39,7 @@ class StokesSolver {
 
   Fourier fourier_;
   std::unique_ptr<ModeSolver> modes_;
-  Components<Complex, 1> pressure_modes_;
+  Components<Complex, 1> pressure_modes_, source_modes_;
 };
 
 }    // namespace fluid
