@@ -25,11 +25,11 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixRBCIB::FixRBCIB(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), tractions(lmp, *this), cost(lmp)
+    Fix(lmp, narg, arg), tractions(lmp, *this), contrast(lmp), cost(lmp)
 {
   time_integrate = 1;
   vector_flag = 1;
-  size_vector = 10;
+  size_vector = 12;
   global_freq = 1;
   extvector = 0;
   comm_forward = comm_reverse = 3;
@@ -82,11 +82,12 @@ void FixRBCIB::build(const MotionSettings &settings)
   iterates = settings.iterates;
   asks_gaps = settings.asks_gaps;
   courant = settings.markers.courant;
+  kernel = settings.markers.kernel;
   most_solves = settings.max_solves;
   integrator_code = settings.integrator->code;
   const std::string style = fmt::format("Fix rbc/ib {}", id);
   markers = std::make_unique<ImmersedMarkers>(lmp, style, groupbit, settings.markers);
-  markers->viscosity().set_limits(settings.tolerance, settings.max_solves);
+  markers->implicit().set_limits(settings.tolerance, settings.max_solves);
   if (settings.gaps) gaps = std::make_unique<GapSlip>(lmp, *this, settings.markers.kernel);
   steps =
       std::make_unique<TimeSteps>(lmp, style, *markers, settings.integrator->make(settings.options),
@@ -163,24 +164,25 @@ void FixRBCIB::init()
   bool viscous = false;
   for (CellMembranes *cells : membranes) {
     cells->report_to(markers->stop());
-    if (cells->keeps_volume() || cells->is_viscous() || cells->is_smoothed())
+    if (cells->keeps_volume() || cells->is_viscous() || cells->is_smoothed() ||
+        cells->interior_viscosity() > 0)
       check_moves_all(*cells);
     viscous = viscous || cells->is_viscous();
   }
   if (viscous && flow->has_inertia())
     error->all(FLERR, "Fix rbc/ib {}: membranes with viscosity need fix rbc/fluid {} inertia none",
                id, fluid);
-  if (iterates && !masses && !viscous)
+  start_contrast(membranes);
+  if (iterates && !masses && !viscous && !contrast.acts())
     error->all(FLERR, "Fix rbc/ib tol and maxiter need scheme direct or a fix rbc/membrane with "
-                      "viscosity");
+                      "viscosity or interior");
   for (FluidClient *client : fluid_clients(modify))
     if (client->wall_group()) check_apart(*client->wall_group());
   for (StepPart *pair : pair_step_parts(force)) pair->report_to(markers->stop());
   warn_of_unheld_cells(lmp, fmt::format("Fix rbc/ib {}", id), groupbit);
   markers->stop()->shows_failure = true;
 
-  markers->start_run(flow, membranes,
-                     has_sheets() ? fluid::MarkerKind::sheets : fluid::MarkerKind::points);
+  markers->start_run(flow, membranes, marker_kind(), contrast.acts() ? &contrast : nullptr);
   start_gaps(membranes);
   start_smoothing(membranes);
   steps->start_run(flow, late_forces);
@@ -205,6 +207,22 @@ void FixRBCIB::start_gaps(const std::vector<CellMembranes *> &membranes)
                    id);
 }
 
+void FixRBCIB::start_contrast(const std::vector<CellMembranes *> &membranes)
+{
+  contrast.start_run(flow, membranes, kernel, find_cell_contact(force));
+  if (!contrast.acts()) return;
+  if (flow->has_inertia())
+    error->all(FLERR,
+               "Fix rbc/membrane interior other than the viscosity of fix rbc/fluid {} needs its "
+               "inertia none",
+               fluid);
+  if (!has_sheets())
+    error->all(FLERR,
+               "Fix rbc/membrane interior other than the viscosity of fix rbc/fluid {} needs fix "
+               "rbc/ib {} with sheets yes",
+               fluid, id);
+}
+
 void FixRBCIB::start_smoothing(const std::vector<CellMembranes *> &membranes)
 {
   tractions.start_run(*flow, membranes);
@@ -223,7 +241,12 @@ bool FixRBCIB::slides_in_gaps() const
 double FixRBCIB::widest_gap() const
 {
   const auto fluid_fix = dynamic_cast<FixRBCFluid *>(modify->get_fix_by_id(fluid));
-  return gaps && fluid_fix && has_sheets() ? gaps->widest_gap(fluid_fix->driven_flow()) : 0;
+  if (!fluid_fix || !has_sheets()) return 0;
+  DrivenFlow &of_fluid = fluid_fix->driven_flow();
+  double widest = gaps ? gaps->widest_gap(of_fluid) : 0;
+  if (has_layers(of_fluid.settings().equations.viscosity))
+    widest = std::max(widest, contrast.widest_gap(of_fluid, kernel));
+  return widest;
 }
 
 /* ----------------------------------------------------------------------
@@ -270,6 +293,19 @@ bool FixRBCIB::has_sheets() const
   return !masses && !all_cell_membranes(lmp).empty();
 }
 
+fluid::MarkerKind FixRBCIB::marker_kind() const
+{
+  if (contrast.acts()) return fluid::MarkerKind::layers;
+  return has_sheets() ? fluid::MarkerKind::sheets : fluid::MarkerKind::points;
+}
+
+bool FixRBCIB::has_layers(double viscosity) const
+{
+  for (const CellMembranes *cells : all_cell_membranes(lmp))
+    if (cells->interior_viscosity() > 0 && cells->interior_viscosity() != viscosity) return true;
+  return false;
+}
+
 /* ---------------------------------------------------------------------- */
 
 void FixRBCIB::setup_post_neighbor()
@@ -289,7 +325,7 @@ void FixRBCIB::post_neighbor()
 void FixRBCIB::setup(int /*vflag*/)
 {
   flow->set_time_at_setup();
-  markers->viscosity().reset_counts();
+  markers->implicit().reset_counts();
   if (masses)
     masses->reset_counts();
   else if (flow->has_inertia() && flow->flow().steps() == 0)
@@ -304,6 +340,7 @@ void FixRBCIB::setup(int /*vflag*/)
   parts.push_back(markers.get());
   if (slides_in_gaps()) parts.push_back(gaps.get());
   if (tractions.acts()) parts.push_back(&tractions);
+  if (contrast.acts()) parts.push_back(&contrast);
   if (flow->walls()) parts.push_back(flow->walls());
   cost.start(parts);
   flow->count_from_here();
@@ -324,7 +361,8 @@ void FixRBCIB::final_integrate()
 
 /* ----------------------------------------------------------------------
    1-3 force of the atoms on the fluid, 4 error of the coupling, 5 stages, 6 spectral radius, 7
-   local error, 8 steps taken again, 9 timestep: of the last step; 10 of value 8 gone wrong
+   local error, 8 steps taken again, 9 timestep: of the last step; 10 of value 8 gone wrong; 11
+   iterations of an evaluation in this run, 12 error left by the last
 ------------------------------------------------------------------------- */
 
 double FixRBCIB::compute_vector(int n)
@@ -344,6 +382,10 @@ double FixRBCIB::compute_vector(int n)
       return steps->last_dt();
     case 9:
       return static_cast<double>(steps->failed());
+    case 10:
+      return markers->implicit().mean_iterations();
+    case 11:
+      return markers->implicit().error();
   }
   double sum = 0;
   if (masses)
@@ -406,9 +448,9 @@ void FixRBCIB::warn() const
   if (masses && masses->unconverged() > 0)
     error->warning(FLERR, "Fix rbc/ib {} reached its maxiter of {} in {} steps", id, most_solves,
                    masses->unconverged());
-  if (markers->viscosity().unconverged() > 0)
+  if (markers->implicit().unconverged() > 0)
     error->warning(FLERR, "Fix rbc/ib {} reached its maxiter of {} in {} evaluations", id,
-                   most_solves, markers->viscosity().unconverged());
+                   most_solves, markers->implicit().unconverged());
 }
 
 /* ---------------------------------------------------------------------- */
@@ -416,5 +458,5 @@ void FixRBCIB::warn() const
 double FixRBCIB::memory_usage()
 {
   return static_cast<double>(markers->bytes() + steps->bytes() + (masses ? masses->bytes() : 0) +
-                             (gaps ? gaps->bytes() : 0) + tractions.bytes());
+                             (gaps ? gaps->bytes() : 0) + tractions.bytes() + contrast.bytes());
 }

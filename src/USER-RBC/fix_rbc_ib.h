@@ -15,6 +15,7 @@ FixStyle(rbc/ib,FixRBCIB);
 #include "coupling/rbc_step_cost.h"
 #include "coupling/rbc_time_steps.h"
 #include "coupling/rbc_traction_filter.h"
+#include "coupling/rbc_viscosity_contrast.h"
 #include "fix.h"
 
 #include <memory>
@@ -55,6 +56,7 @@ class FixRBCIB : public Fix,
   bool drives_flow() const override { return true; }
   double cells_per_step() const override { return courant; }
   bool has_sheets() const override;
+  bool has_layers(double) const override;
   double widest_gap() const override;
 
   std::string remedies_for(const std::vector<Flaw> &) override;
@@ -65,6 +67,7 @@ class FixRBCIB : public Fix,
   std::string fluid;
   Sheets sheets = Sheets::WITH_MEMBRANES;
   double courant = 1;
+  fluid::KernelKind kernel = fluid::default_kernel;
   int most_solves = 0, integrator_code = 0;
   bool takes_default = false;    // no integrator was named
   bool iterates = false;         // keywords of iterations were given
@@ -76,16 +79,19 @@ class FixRBCIB : public Fix,
   std::unique_ptr<TimeSteps> steps;
   std::unique_ptr<GapSlip> gaps;    // null with gaps no
   TractionFilter tractions;
+  mutable ViscosityContrast contrast;    // makes what it needs when asked for gaps
   AtomRows *exchanged = nullptr;    // in the exchange of ghosts that is under way
   StepCost cost;
 
   std::string store_id;
   class FixStoreAtom *store = nullptr;    // numbers kept for each atom
 
+  fluid::MarkerKind marker_kind() const;
   bool fluid_has_inertia() const;
   void update_default();
   void start_gaps(const std::vector<CellMembranes *> &);
   bool slides_in_gaps() const;
+  void start_contrast(const std::vector<CellMembranes *> &);
   void start_smoothing(const std::vector<CellMembranes *> &);
   void send_to_ghosts(AtomRows &) override;
   void add_from_ghosts(AtomRows &) override;

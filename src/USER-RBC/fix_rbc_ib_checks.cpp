@@ -94,7 +94,8 @@ void FixRBCIB::check_moves_all(const CellMembranes &cells) const
                cells.style().substr(1),
                cells.is_smoothed()    ? "smooths tractions"
                : cells.keeps_volume() ? "keeps the volume of its cells"
-                                      : "has viscosity");
+               : cells.is_viscous()   ? "has viscosity"
+                                      : "has a viscosity inside");
 }
 
 /* ---------------------------------------------------------------------- */

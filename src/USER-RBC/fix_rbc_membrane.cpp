@@ -64,7 +64,8 @@ MembraneSettings FixRBCMembrane::parse(int narg, char **arg)
          take_stress_free_shape(lmp, *settings.surface, arg[3], args.text(), "fix rbc/membrane");
        }},
       {"viscosity", [&] { settings.viscosity = read_viscosity(args); }},
-      {"smooth", [&] { settings.smoothed = args.logical(); }}};
+      {"smooth", [&] { settings.smoothed = args.logical(); }},
+      {"interior", [&] { settings.interior = args.positive("interior"); }}};
   for (Arguments::Keyword &keyword : limits(args, elastic)) keywords.push_back(keyword);
   args.read(keywords);
   check_settings(settings);
@@ -217,6 +218,9 @@ void FixRBCMembrane::init()
                    "Fix rbc/membrane {} smooth yes has no effect: there is no fix rbc/ib, whose "
                    "fluid feels tractions",
                    id);
+  if (cells.interior_viscosity() > 0 && modify->get_fix_by_style("^rbc/ib$").empty())
+    error->all(FLERR,
+               "Fix rbc/membrane {} interior needs a fix rbc/ib, whose fluid fills the cells", id);
   cells.start_run();
   check_apart();
   ask_for_ghosts();

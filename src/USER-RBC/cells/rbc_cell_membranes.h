@@ -19,6 +19,7 @@ struct MembraneSettings {
   Swelling swelling;
   bool volume_kept = true;
   bool smoothed = false;    ///< tractions, by TractionFilter
+  double interior = 0;      ///< viscosity of the fluid inside, 0: that of the fluid outside
 };
 
 /// The membranes of one fix rbc/membrane: forces, viscosity and volume of those parts of its cells
@@ -79,6 +80,9 @@ class CellMembranes : public StepPart, protected Pointers {
 
   bool is_smoothed() const { return settings_.smoothed; }
 
+  /// Of the fluid inside; 0 where it is that of the fluid outside.
+  double interior_viscosity() const { return settings_.interior; }
+
   // viscosity
 
   bool is_viscous() const { return !settings_.viscosity.is_zero(); }
@@ -110,6 +114,18 @@ class CellMembranes : public StepPart, protected Pointers {
   /// of the step. Collective.
   void constrain_volume(double dt, bool new_step, bool mid_step);
 
+  /// Calls visit(i, dV/dx_i, x_i) for each vertex that is an atom i of this rank, V the volume of
+  /// its cell and x_i the position relative to an origin that the cell has on all ranks. dV/dx_i is
+  /// a third of the areas around the vertex, times their outward normals. Not collective.
+  using GradientVisitor = std::function<void(int, const rbc::Vec3 &, const rbc::Vec3 &)>;
+  void visit_volume_gradients(const GradientVisitor &visit);
+
+  /// Calls visit(i, s) for each vertex that is an atom i of this rank, s what
+  /// MembraneModel::surface_shear() gives for the atoms' velocities, divided by the area. Ghosts
+  /// must have velocities. Not collective.
+  using ShearVisitor = std::function<void(int, const rbc::Vec3 &)>;
+  void visit_surface_shear(const ShearVisitor &visit);
+
   void report_to(const std::shared_ptr<CollectiveStop> &stop) override { stop_ = stop; }
   std::vector<Section> sections() override { return {{"Membrane", &stopwatch_}}; }
 
@@ -127,7 +143,8 @@ class CellMembranes : public StepPart, protected Pointers {
   VirialTally tally_;
 
   // of the current cell, an entry for each vertex of the template
-  std::vector<rbc::Vec3> x_, f_, v_;
+  std::vector<rbc::Vec3> x_, f_, v_, gradient_;
+  std::vector<double> area_;
 
   // of all cells here
   std::vector<double> sizes_;    ///< area and volume of each

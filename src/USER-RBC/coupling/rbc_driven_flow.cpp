@@ -1,7 +1,6 @@
 #include "coupling/rbc_driven_flow.h"
 
 #include "comm.h"
-#include "coupling/rbc_fluid_client.h"
 #include "coupling/rbc_ghost_layers.h"
 #include "domain.h"
 #include "error.h"
@@ -46,6 +45,12 @@ double DrivenFlow::mean_spacing() const
   return std::cbrt(h[0] * h[1] * h[2]);
 }
 
+double DrivenFlow::box_volume() const
+{
+  const fluid::Grid &grid = flow_->grid();
+  return grid.cell_volume() * static_cast<double>(grid.size());
+}
+
 /* ----------------------------------------------------------------------
    none are needed without vertices
 ------------------------------------------------------------------------- */
@@ -53,7 +58,7 @@ double DrivenFlow::mean_spacing() const
 int DrivenFlow::layers_needed() const
 {
   if (!driven_ && !walls_) return 0;
-  return marker_layers(lmp, style_, settings_.cells, {cells_per_step_, sheets_});
+  return marker_layers(lmp, style_, settings_.cells, {cells_per_step_, sheets_, layers_});
 }
 
 /* ---------------------------------------------------------------------- */
@@ -94,95 +99,6 @@ void DrivenFlow::build()
   }
   flow_ = std::move(flow);
   changed();
-}
-
-void DrivenFlow::start_run(const std::vector<FluidClient *> &clients, const std::string &fluid_id)
-{
-  forcing_.check();
-  inside_.forget();    // the region may be another one
-  take_demands(clients, fluid_id);
-  if (layers_needed() != ghost_layers_) build();
-  if (controls_flow_rate()) continue_control();
-}
-
-void DrivenFlow::take_demands(const std::vector<FluidClient *> &clients,
-                              const std::string &fluid_id)
-{
-  driven_ = sheets_ = false;
-  std::vector<WallGroup *> groups;
-  for (FluidClient *client : clients) {
-    if (client->fluid_id() != fluid_id) continue;
-    if (client->drives_flow()) {
-      driven_ = true;
-      cells_per_step_ = client->cells_per_step();
-    }
-    sheets_ = sheets_ || client->has_sheets();
-    if (client->wall_group()) groups.push_back(client->wall_group());
-  }
-  connect_walls(groups);
-}
-
-/* ----------------------------------------------------------------------
-   with walls the mean velocity of a triply periodic box follows from the balance of forces unless
-   it is given
-------------------------------------------------------------------------- */
-
-void DrivenFlow::connect_walls(const std::vector<WallGroup *> &groups)
-{
-  free_mean_ = false;
-  if (groups.empty()) {
-    walls_.reset();
-    if (!has_inertia() && settings_.free_mean)
-      error->all(FLERR, "Fix rbc/fluid mean force needs inertia unsteady or convective, or a fix "
-                        "rbc/wall: without them a net force has nothing to accelerate or to act "
-                        "on");
-    warn_of_idle_forcing();
-    return;
-  }
-  if (has_inertia())
-    error->all(FLERR, "{} needs {} inertia none", groups.front()->style(), inside_.style());
-  free_mean_ = !settings_.plates && !settings_.prescribed_mean;
-  if (!walls_) {
-    walls_ = std::make_unique<RigidWalls>(lmp);
-    walls_->remember(std::move(wall_memory_));
-    wall_memory_ = {};
-  }
-  walls_->connect(groups, free_mean_);
-  warn_of_vessel_at_rest();
-}
-
-/* ----------------------------------------------------------------------
-   a vessel whose author forgot what drives the flow
-------------------------------------------------------------------------- */
-
-void DrivenFlow::warn_of_vessel_at_rest() const
-{
-  if (settings_.inside.empty() || settings_.plates || settings_.prescribed_mean || comm->me != 0)
-    return;
-  if (controls_flow_rate() || walls_->moves()) return;
-  for (const NumberOrVariable &component : forcing_.body)
-    if (component.is_variable() || component.value(lmp) != 0) return;
-  error->warning(FLERR, "{} inside {}: nothing drives the flow there; use mean or body", style_,
-                 settings_.inside);
-}
-
-void DrivenFlow::warn_of_idle_forcing() const
-{
-  if (!holds_box_mean() || comm->me != 0) return;
-  if (controls_flow_rate()) {
-    if (!settings_.inside.empty())
-      error->warning(FLERR,
-                     "{} inside {}: there is no fix rbc/wall to keep the flow inside, that of the "
-                     "whole box is held",
-                     style_, settings_.inside);
-    return;
-  }
-  for (const NumberOrVariable &component : forcing_.body)
-    if (component.is_variable() || component.value(lmp) != 0) {
-      error->warning(FLERR, "Fix rbc/fluid body has no effect in a triply periodic box whose "
-                            "mean velocity is held: a pressure gradient balances it");
-      break;
-    }
 }
 
 bool DrivenFlow::holds_box_mean() const
@@ -238,7 +154,7 @@ void DrivenFlow::clear_force()
 {
   spreading_.start();
   flow_->clear_force();
-  marker_force_ = {};
+  marker_force_ = excess_ = {};
   spreading_.stop();
 }
 
@@ -254,12 +170,31 @@ int DrivenFlow::spread(const fluid::MarkerSet &markers, const double *force, dou
   return outside;
 }
 
+int DrivenFlow::spread(const fluid::MarkerSet &markers, const fluid::DoubleLayer &layer,
+                       const std::array<double, 3> &excess)
+{
+  spreading_.start();
+  const int outside = flow_->spread(markers, layer);
+  spreading_.stop();
+  excess_ = excess;
+  return outside;
+}
+
+int DrivenFlow::find_inside(const fluid::MarkerSet &markers, const double *step, double mean)
+{
+  solving_.start();
+  const int outside = flow_->find_inside(markers, step, mean);
+  solving_.stop();
+  return outside;
+}
+
 /* ---------------------------------------------------------------------- */
 
 void DrivenFlow::solve(CollectiveStop &stop, bool with_walls)
 {
   const bool walls = walls_ && with_walls;
   fluid::Forcing uniform = forcing_now_;
+  for (int d = 0; d < 3; ++d) uniform.mean[d] += excess_[d];
   if (walls) {
     if (stop.trying) stop.check();    // wrong forces must not get into what walls remember
     spread_walls(uniform, stop);
@@ -329,10 +264,11 @@ DrivenFlow::couple_masses(fluid::DirectForcing &direct,
 }
 
 int DrivenFlow::apply_mobility(const fluid::MarkerSet &markers, const double *force,
-                               double *velocity)
+                               double *velocity, const fluid::DoubleLayer *layer,
+                               const std::array<double, 3> &excess)
 {
   solving_.start();
-  const int outside = flow_->apply_mobility(markers, force, velocity);
+  const int outside = flow_->apply_mobility(markers, force, velocity, layer, excess);
   solving_.stop();
   return outside;
 }
@@ -383,15 +319,25 @@ void DrivenFlow::check_courant()
 
 const fluid::FlowDiagnostics &DrivenFlow::diagnostics()
 {
-  if (diagnosed_version_ != version_) diagnostics_ = fluid::diagnose(*flow_, solved_forcing_);
+  if (diagnosed_version_ != version_) {
+    diagnostics_ = fluid::diagnose(*flow_, solved_forcing_);
+    for (int d = 0; d < 3; ++d) diagnostics_.mean_velocity[d] -= excess_[d];
+  }
   diagnosed_version_ = version_;
   return diagnostics_;
 }
 
-const std::array<double, 3> &DrivenFlow::mean_inside()
+/* ----------------------------------------------------------------------
+   all cells are taken to be inside
+------------------------------------------------------------------------- */
+
+std::array<double, 3> DrivenFlow::mean_inside()
 {
-  return settings_.inside.empty() ? diagnostics().mean_velocity
-                                  : inside_.mean_velocity(*flow_, version_);
+  if (settings_.inside.empty()) return diagnostics().mean_velocity;
+  std::array<double, 3> mean = inside_.mean_velocity(*flow_, version_);
+  const double share = box_volume() / inside_volume();
+  for (int d = 0; d < 3; ++d) mean[d] -= share * excess_[d];
+  return mean;
 }
 
 double DrivenFlow::driving_force(int d) const

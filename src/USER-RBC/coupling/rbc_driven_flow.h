@@ -36,6 +36,7 @@ class DrivenFlow : public StepPart, protected Pointers {
   bool has_inertia() const { return settings_.equations.inertia != fluid::Inertia::none; }
   double smallest_spacing() const;
   double mean_spacing() const;    ///< cube root of the volume of a fluid cell
+  double box_volume() const;
   int ghost_layers() const { return ghost_layers_; }
   SceneTable &scene() { return scene_; }
 
@@ -109,6 +110,14 @@ class DrivenFlow : public StepPart, protected Pointers {
   /// layers, or -1.
   int spread(const fluid::MarkerSet &markers, const double *force, double factor);
 
+  /// Adds the double layer of markers, whose flow has `excess` more mean velocity than the fluid.
+  /// Returns what the other spread does.
+  int spread(const fluid::MarkerSet &markers, const fluid::DoubleLayer &layer,
+             const std::array<double, 3> &excess);
+
+  /// See fluid::Flow. Collective.
+  int find_inside(const fluid::MarkerSet &markers, const double *step, double mean);
+
   /// Computes the velocity of the fluid from the forces spread, the forcing and, if `with_walls`,
   /// the walls. Checks `stop` first: an error reported there ends the run, or throws FailedTrial
   /// while a step is tried. With inertia this starts a step of the fluid, and the velocity is that
@@ -124,7 +133,9 @@ class DrivenFlow : public StepPart, protected Pointers {
 
   /// Velocities at the markers that further forces on them would add, without walls. Returns what
   /// spread does.
-  int apply_mobility(const fluid::MarkerSet &markers, const double *force, double *velocity);
+  int apply_mobility(const fluid::MarkerSet &markers, const double *force, double *velocity,
+                     const fluid::DoubleLayer *layer = nullptr,
+                     const std::array<double, 3> &excess = {0, 0, 0});
 
   /// With inertia: the end of the fluid's step. Without: nothing.
   void finish_step();
@@ -143,7 +154,7 @@ class DrivenFlow : public StepPart, protected Pointers {
   bigint solves() const { return flow_->solves() + earlier_solves_; }
   void set_earlier_solves(bigint solves) { earlier_solves_ = solves; }
   const fluid::FlowDiagnostics &diagnostics();
-  const std::array<double, 3> &mean_inside();
+  std::array<double, 3> mean_inside();
   double inside_volume() { return inside_.volume(*flow_); }
 
   /// Body force, or the pressure gradient that balances all forces where the mean velocity is held;
@@ -172,7 +183,7 @@ class DrivenFlow : public StepPart, protected Pointers {
   SceneTable scene_;
 
   // demands of the clients
-  bool driven_ = false, sheets_ = false;
+  bool driven_ = false, sheets_ = false, layers_ = false;
   double cells_per_step_ = 1;
   int ghost_layers_ = -1;
   std::vector<double> wall_memory_;    ///< from a restart file, until there are walls
@@ -185,6 +196,7 @@ class DrivenFlow : public StepPart, protected Pointers {
 
   // an evaluation
   std::array<double, 3> marker_force_{};    ///< sum spread on this rank; kept with walls
+  std::array<double, 3> excess_{};          ///< of the mean velocity that is solved for
 
   bigint version_ = 0, diagnosed_version_ = -1;    ///< of the velocity
   fluid::FlowDiagnostics diagnostics_;

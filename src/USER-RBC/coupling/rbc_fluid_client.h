@@ -24,6 +24,9 @@ class FluidClient {
   /// Its atoms are sheets of markers, whose velocities need differences of the flow.
   virtual bool has_sheets() const { return false; }
 
+  /// Its atoms bound fluid of another viscosity than this one.
+  virtual bool has_layers(double /*viscosity*/) const { return false; }
+
   /// Atoms on which the fluid does not slip, or null.
   virtual WallGroup *wall_group() { return nullptr; }
 

@@ -166,7 +166,8 @@ void Reader::check()
   if (target_spacing > 0 && settings.cells[0] > 0)
     error->all(FLERR, "Fix rbc/fluid takes either dx or grid, not both");
   if (settings.equations.viscosity == 0) error->all(FLERR, "Fix rbc/fluid needs viscosity");
-  if (settings.equations.density == 0) error->all(FLERR, "Fix rbc/fluid needs density");
+  if (inertia && settings.equations.density == 0)
+    error->all(FLERR, "Fix rbc/fluid needs density with inertia unsteady or convective");
 }
 
 /* ----------------------------------------------------------------------

@@ -32,8 +32,7 @@ void *GridOutput::get(int index, fluid::Flow &flow, const std::array<double, 3> 
   if (index == PRESSURE)
     fill_pressure(flow);
   else if (index == VELOCITY) {
-    flow.fill_ghosts();
-    fill_vector(VELOCITY, &flow.velocity(), {0, 0, 0}, 1.0);
+    fill_vector(VELOCITY, &flow.fluid_velocity(), {0, 0, 0}, 1.0);
   } else {
     const bool spread = flow.has_force();
     if (spread) flow.fill_force_ghosts();

@@ -9,6 +9,7 @@
 #include "coupling/rbc_gap_slip.h"
 #include "coupling/rbc_massive_markers.h"
 #include "coupling/rbc_traction_filter.h"
+#include "coupling/rbc_viscosity_contrast.h"
 #include "dihedral.h"
 #include "domain.h"
 #include "force.h"
@@ -31,7 +32,7 @@ using rbc::Numbers;
 ImmersedMarkers::ImmersedMarkers(LAMMPS *lmp, std::string style, int groupbit,
                                  const Settings &settings) :
     Pointers(lmp),
-    style_(std::move(style)), groupbit_(groupbit), settings_(settings), viscosity_(lmp, *this),
+    style_(std::move(style)), groupbit_(groupbit), settings_(settings), implicit_(lmp, *this),
     stop_(std::make_shared<CollectiveStop>(lmp))
 {
 }
@@ -39,7 +40,7 @@ ImmersedMarkers::ImmersedMarkers(LAMMPS *lmp, std::string style, int groupbit,
 ImmersedMarkers::~ImmersedMarkers() = default;
 
 void ImmersedMarkers::start_run(DrivenFlow *flow, const std::vector<CellMembranes *> &membranes,
-                                fluid::MarkerKind kind)
+                                fluid::MarkerKind kind, ViscosityContrast *contrast)
 {
   flow_ = flow;
   kind_ = kind;
@@ -47,7 +48,8 @@ void ImmersedMarkers::start_run(DrivenFlow *flow, const std::vector<CellMembrane
   volume_keepers_.clear();
   for (CellMembranes *cells : membranes)
     if (cells->keeps_volume()) volume_keepers_.push_back(cells);
-  viscosity_.start_run(flow, membranes);
+  contrast_ = contrast;
+  implicit_.start_run(flow, membranes, contrast);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -141,10 +143,16 @@ void ImmersedMarkers::velocity_at_start(const Numbers & /*x*/, Numbers &v)
 
 void ImmersedMarkers::velocities_from_forces(Stage stage)
 {
-  if (viscosity_.has_viscous_membranes() && !estimating_spectrum_)
-    viscosity_.solve(stage);
+  if (contrast_ && !estimating_spectrum_) {
+    const int outside = contrast_->find_surfaces(set());
+    if (outside >= 0) report_outside(outside);
+    stop_->check();
+  }
+  if (implicit_.acts() && !estimating_spectrum_)
+    implicit_.solve(stage);
   else
     velocities_of_flow(stage);
+  if (contrast_ && !estimating_spectrum_ && stage != Stage::within) contrast_->find_inside(set());
   check_velocities(stage);
   flow_->finish_step();
 }
@@ -160,13 +168,29 @@ void ImmersedMarkers::velocities_of_flow(Stage stage)
                             ? flow_->spread(set(), filter_->smooth_forces(rows(atom->f), factor), 1)
                             : flow_->spread(set(), rows(atom->f), factor);
     if (outside >= 0) report_outside(outside);
+    if (contrast_ && !estimating_spectrum_) spread_layer();
     flow_->solve(*stop_, !estimating_spectrum_);
     flow_->interpolate(set(), rows(atom->v));
+    if (contrast_ && !estimating_spectrum_) contrast_->read(set(), rows(atom->v));
+    if (contrast_ && estimating_spectrum_) contrast_->bound(set(), rows(atom->v));
     if (filter_) filter_->smooth_velocities(rows(atom->v));
     if (gaps_) gaps_->add(members_, rows(atom->f), factor, rows(atom->v));
   }
   constrain_volume(stage);
 }
+
+/* ----------------------------------------------------------------------
+   Estimates of the spectrum go without it: they need no more than a bound.
+------------------------------------------------------------------------- */
+
+void ImmersedMarkers::spread_layer()
+{
+  const auto moving = contrast_->layer(set());
+  const int outside = flow_->spread(set(), moving.layer, moving.mean_excess);
+  if (outside >= 0) report_outside(outside);
+}
+
+/* ---------------------------------------------------------------------- */
 
 void ImmersedMarkers::interpolate()
 {
@@ -196,8 +220,12 @@ void ImmersedMarkers::apply_mobility(double factor, Numbers &response)
   for (int i : members_)
     for (int d = 0; d < 3; ++d) applied_[3 * std::size_t(i) + d] = factor * atom->f[i][d];
   const double *const felt = filter_ ? filter_->smooth_forces(applied_.data(), 1) : applied_.data();
-  const int outside = flow_->apply_mobility(set(), felt, response.data());
-  if (outside >= 0) report_outside(outside);
+  if (contrast_) {
+    const auto moving = contrast_->layer(set());
+    flow_->apply_mobility(set(), felt, response.data(), &moving.layer, moving.mean_excess);
+    contrast_->read(set(), response.data());
+  } else
+    flow_->apply_mobility(set(), felt, response.data());
   if (filter_) filter_->smooth_velocities(response.data());
   if (gaps_) gaps_->add(members_, applied_.data(), 1, response.data());
 }
@@ -338,6 +366,6 @@ void ImmersedMarkers::report(int i, const std::string &what, Flaw flaw)
 
 std::size_t ImmersedMarkers::bytes() const
 {
-  return viscosity_.bytes() + applied_.capacity() * sizeof(double) +
+  return implicit_.bytes() + applied_.capacity() * sizeof(double) +
          members_.capacity() * sizeof(int);
 }

@@ -1,7 +1,7 @@
 #ifndef LMP_RBC_IMMERSED_MARKERS_H
 #define LMP_RBC_IMMERSED_MARKERS_H
 
-#include "coupling/rbc_implicit_viscosity.h"
+#include "coupling/rbc_implicit_velocity.h"
 #include "fluid/flow.h"
 #include "motion/motion.h"
 #include "support/rbc_step_part.h"
@@ -15,6 +15,7 @@ namespace LAMMPS_NS {
 class CellMembranes;
 class DrivenFlow;
 class GapSlip;
+class ViscosityContrast;
 class TractionFilter;
 class MassiveMarkers;
 
@@ -35,10 +36,10 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
 
   /// At the start of a run: the flow that they drive and the membranes that hold them together.
   void start_run(DrivenFlow *flow, const std::vector<CellMembranes *> &membranes,
-                 fluid::MarkerKind kind);
+                 fluid::MarkerKind kind, ViscosityContrast *contrast);
 
-  /// Solver for the viscous forces of the membranes.
-  ImplicitViscosity &viscosity() { return viscosity_; }
+  /// Solver where forces or the flow depend on the velocities.
+  ImplicitVelocity &implicit() { return implicit_; }
 
   /// Gives the markers masses (fluid with inertia, scheme direct); null: they have none.
   void set_masses(MassiveMarkers *masses) { masses_ = masses; }
@@ -87,8 +88,8 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
   /// contain the viscous forces at the atom->v of the call. Collective.
   void velocities_from_forces(Stage stage);
 
-  /// Does the same, but takes all forces as given: no implicit solution for viscous forces, no
-  /// check of the speeds, no end of the fluid's step.
+  /// Does the same, but takes all forces as given, and atom->v as the velocities on which the flow
+  /// depends: no implicit solution, no check of the speeds, no end of the fluid's step.
   void velocities_of_flow(Stage stage);
 
   void constrain_volume(Stage stage);
@@ -102,7 +103,8 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
   void interpolate();
 
   /// Computes the velocities that further forces `factor` * atom->f on the markers would give them,
-  /// walls left out. `response` becomes three numbers for each of the nlocal atoms, valid for
+  /// and, where the flow depends on velocities, further velocities atom->v. Walls are left out.
+  /// `response` becomes three numbers for each of the nlocal atoms, valid for
   /// members(). Costs one solve of the flow.
   void apply_mobility(double factor, rbc::Numbers &response);
 
@@ -146,10 +148,11 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
   DrivenFlow *flow_ = nullptr;
   std::vector<CellMembranes *> membranes_, volume_keepers_;
   std::vector<int> members_;
-  ImplicitViscosity viscosity_;
+  ImplicitVelocity implicit_;
   MassiveMarkers *masses_ = nullptr;
   GapSlip *gaps_ = nullptr;
   TractionFilter *filter_ = nullptr;
+  ViscosityContrast *contrast_ = nullptr;
   std::shared_ptr<CollectiveStop> stop_;
   rbc::Stopwatch exchanging_;
   bool estimating_spectrum_ = false, any_speed_between_steps_ = false;
@@ -157,6 +160,7 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
   rbc::Numbers applied_;    ///< a row for each atom here
 
   double *rows(double **array) const { return members_.empty() ? nullptr : array[0]; }
+  void spread_layer();
   void evaluate(const rbc::Numbers &x, double fraction, Stage stage, rbc::Numbers &v);
   void report_too_fast(Stage stage);
   void report_crossing(int i, double multiple);

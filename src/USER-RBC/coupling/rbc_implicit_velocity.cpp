@@ -1,4 +1,4 @@
-#include "coupling/rbc_implicit_viscosity.h"
+#include "coupling/rbc_implicit_velocity.h"
 
 #include "atom.h"
 #include "cells/rbc_cell_membranes.h"
@@ -17,26 +17,28 @@ static constexpr int MOST_ROUNDS = 20;
 
 /* ---------------------------------------------------------------------- */
 
-void ImplicitViscosity::set_limits(double tolerance, int max_iterations)
+void ImplicitVelocity::set_limits(double tolerance, int max_iterations)
 {
   tolerance_ = tolerance;
   gmres_.max_iterations = max_iterations;
 }
 
-void ImplicitViscosity::start_run(DrivenFlow *flow, const std::vector<CellMembranes *> &membranes)
+void ImplicitVelocity::start_run(DrivenFlow *flow, const std::vector<CellMembranes *> &membranes,
+                                 const ViscosityContrast *contrast)
 {
   flow_ = flow;
+  contrast_ = contrast;
   viscous_.clear();
   for (CellMembranes *cells : membranes)
     if (cells->is_viscous()) viscous_.push_back(cells);
 }
 
 /* ----------------------------------------------------------------------
-   The mobility of the markers leaves out the walls and takes Z as constant. Where there are walls,
-   or Z depends on the velocities, one linear solve does not suffice.
+   The linear system leaves out the walls and takes Z as constant. Where there are walls, or Z
+   depends on the velocities, one linear solve does not suffice.
 ------------------------------------------------------------------------- */
 
-bool ImplicitViscosity::needs_rounds() const
+bool ImplicitVelocity::needs_rounds() const
 {
   bool rounds = flow_->walls() != nullptr;
   for (const CellMembranes *cells : viscous_) rounds = rounds || cells->is_thinning();
@@ -45,31 +47,38 @@ bool ImplicitViscosity::needs_rounds() const
 
 /* ---------------------------------------------------------------------- */
 
-void ImplicitViscosity::solve(EvaluationStage stage)
+void ImplicitVelocity::solve(EvaluationStage stage)
 {
   const bool rounds = needs_rounds();
+  ++evaluations_;
   double count = static_cast<double>(markers_.members().size());
   markers_.sum(&count, 1);
 
   markers_.load(atom->v, guess_);
   markers_.velocities_of_flow(stage);
-  double error = 0;
   bool frozen = false;
   for (int round = 0;; ++round) {
     markers_.load(atom->f, forces_);
-    const double before = error, allowed = tolerance_ * markers_.fastest() * std::sqrt(count);
-    error = find_residual();
-    if (round > 0 && !(error > allowed)) return;
+    const double before = error_, scale = markers_.fastest() * std::sqrt(count),
+                 allowed = tolerance_ * scale;
+    const double length = find_residual();
+    error_ = scale > 0 ? length / scale : 0;
+    if (!(length > allowed) && (round > 0 || contrast_)) return;
     if (round == MOST_ROUNDS) break;
-    frozen = round > 0 && !frozen && error > before / 2;
+    frozen = round > 0 && !frozen && error_ > before / 2;
 
     markers_.store(guess_, atom->v);
     for (CellMembranes *cells : viscous_) cells->linearise(frozen);
-    const double linear_error = solve_linear(rounds ? allowed / 2 : allowed);
+    const double left = solve_linear(rounds ? allowed / 2 : allowed);
     correct_forces();
-    markers_.velocities_of_flow(stage);
+    markers_.store(guess_, atom->v);
+    if (rounds || stage != EvaluationStage::within || !contrast_)
+      markers_.velocities_of_flow(stage);
+    else
+      markers_.constrain_volume(stage);
     if (rounds) continue;
-    if (linear_error <= allowed) return;
+    error_ = scale > 0 ? left / scale : 0;
+    if (left <= allowed) return;
     break;
   }
   ++unconverged_;
@@ -80,39 +89,42 @@ void ImplicitViscosity::solve(EvaluationStage stage)
    of this vector over all ranks.
 ------------------------------------------------------------------------- */
 
-double ImplicitViscosity::find_residual()
+double ImplicitVelocity::find_residual()
 {
   markers_.load(atom->v, residual_);
   for (std::size_t i = 0; i < guess_.size(); ++i) residual_[i] -= guess_[i];
   return std::sqrt(dot(markers_, residual_, residual_));
 }
 
-double ImplicitViscosity::solve_linear(double tolerance)
+double ImplicitVelocity::solve_linear(double tolerance)
 {
   correction_.assign(guess_.size(), 0.0);
-  return gmres_.solve(
+  const double left = gmres_.solve(
       [this](const Numbers &p, Numbers &result) {
-        viscous_response(p, result);
+        response(p, result);
         for (std::size_t i = 0; i < p.size(); ++i) result[i] += p[i];
       },
       markers_, residual_, tolerance, correction_);
+  iterations_ += gmres_.iterations();
+  return left;
 }
 
 /* ----------------------------------------------------------------------
-   Computes v = M Z p: minus the velocities that the viscous forces of the membranes cause if the
-   atoms move with p. Overwrites atom->v and atom->f. Costs one solve of the flow.
+   Computes v = (M Z - D) p: minus the velocities that viscous forces of the membranes and double
+   layers cause if the atoms move with p. Overwrites atom->v and atom->f. Costs one solve of the
+   flow.
 ------------------------------------------------------------------------- */
 
-void ImplicitViscosity::viscous_response(const Numbers &p, Numbers &v)
+void ImplicitVelocity::response(const Numbers &p, Numbers &v)
 {
   v.assign(p.size(), 0.0);
   markers_.store(p, atom->v);
   markers_.store(v, atom->f);
   for (CellMembranes *cells : viscous_) cells->add_viscous_change();
-  markers_.apply_mobility(-force->ftm2v, response_);
+  markers_.apply_mobility(force->ftm2v, response_);
   const std::vector<int> &members = markers_.members();
   for (std::size_t n = 0; n < members.size(); ++n)
-    for (int d = 0; d < 3; ++d) v[3 * n + d] = response_[3 * std::size_t(members[n]) + d];
+    for (int d = 0; d < 3; ++d) v[3 * n + d] = -response_[3 * std::size_t(members[n]) + d];
 }
 
 /* ----------------------------------------------------------------------
@@ -121,7 +133,7 @@ void ImplicitViscosity::viscous_response(const Numbers &p, Numbers &v)
    thins, it is the force at the new guess less that at the old one.
 ------------------------------------------------------------------------- */
 
-void ImplicitViscosity::correct_forces()
+void ImplicitVelocity::correct_forces()
 {
   markers_.store(forces_, atom->f);
   for (CellMembranes *cells : viscous_) {
@@ -139,7 +151,7 @@ void ImplicitViscosity::correct_forces()
 
 /* ---------------------------------------------------------------------- */
 
-std::size_t ImplicitViscosity::bytes() const
+std::size_t ImplicitVelocity::bytes() const
 {
   std::size_t numbers = 0;
   for (const Numbers *vector : {&guess_, &forces_, &residual_, &correction_, &response_})

@@ -190,7 +190,7 @@ bool TimeSteps::are_velocities_same()
 {
   markers_.load(atom->v, V_new_);
   for (std::size_t i = 0; i < V_.size(); ++i) V_new_[i] -= V_[i];
-  const double tolerance = std::max(SAME, 2 * markers_.viscosity().tolerance());
+  const double tolerance = std::max(SAME, 2 * markers_.implicit().tolerance());
   return root_mean_square(markers_, V_new_) <= tolerance * root_mean_square(markers_, V_);
 }
 

@@ -92,6 +92,27 @@ void MembraneModel::volume_gradient(Vec3 *gradient) const
   }
 }
 
+void MembraneModel::surface_shear(const Vec3 *v, Vec3 *shear, double *area) const
+{
+  std::fill_n(shear, shape_.vertex_count(), Vec3::Zero());
+  std::fill_n(area, shape_.vertex_count(), 0.0);
+  for (int t = 0; t < elements_->owned_triangles; ++t) {
+    const PlainVector n = normal_[t], e1 = edge1_[t], e2 = edge2_[t];
+    const PlainVector across[3] = {cross(n, e2 - e1), cross(e2, n), cross(n, e1)};
+    PlainVector sum{0, 0, 0};
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 &at = v[elements_->corners[k][t]];
+      const PlainVector velocity{at[0], at[1], at[2]};
+      sum = sum + dot(n, velocity) * across[k] + dot(across[k], velocity) * n;
+    }
+    const Vec3 third = Vec3(sum.x, sum.y, sum.z) / 6;
+    for (const std::vector<int> &corner : elements_->corners) {
+      shear[corner[t]] += third;
+      area[corner[t]] += twice_area_[t] / 6;
+    }
+  }
+}
+
 std::string MembraneModel::find_flaw()
 {
   const std::vector<int> &left = elements_->left, &right = elements_->right;

@@ -1,0 +1,95 @@
+#ifndef LMP_RBC_VISCOSITY_CONTRAST_H
+#define LMP_RBC_VISCOSITY_CONTRAST_H
+
+#include "fluid/flow.h"
+#include "fluid/gap_mobility.h"
+#include "pointers.h"
+#include "support/rbc_step_part.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+class CellContact;
+class CellMembranes;
+class DrivenFlow;
+
+/// Cells whose inside has a viscosity of its own. The flow solved for is that of fluid::DoubleLayer
+/// in the fluid outside, w = u eta(x) / eta. It needs the velocities of the membranes, so these are
+/// the solution of an equation. What a vertex sees of w is u times 1 + e, with e what it sees of a
+/// layer that moves with unit velocity: half of eta(x) / eta - 1 inside at a plane surface, another
+/// share where surfaces are near each other or curved. The slope of w differs between the two sides of a surface by
+/// surface_shear() times eta(x) / eta - 1; what kernels blur of that is taken off. So is, in the
+/// part that is relative motion, what a vertex sees of the inside of other cells near it. See
+/// theory.rst.
+class ViscosityContrast : public StepPart, protected Pointers {
+ public:
+  explicit ViscosityContrast(LAMMPS *lmp) : Pointers(lmp) {}
+
+  /// At the start of a run. Of the membranes those count whose inside has another viscosity.
+  /// `contact` tells which surfaces are near each other; it may be null.
+  void start_run(DrivenFlow *flow, const std::vector<CellMembranes *> &membranes,
+                 fluid::KernelKind kernel, const CellContact *contact);
+
+  /// Whether any do.
+  bool acts() const { return !kinds_.empty(); }
+
+  /// Widest gap across which a vertex sees the inside of another cell.
+  double widest_gap(const DrivenFlow &flow, fluid::KernelKind kernel);
+
+  /// Finds the surfaces of the cells, where the atoms are now, and what vertices see of the
+  /// viscosity. Returns the first marker whose kernel leaves the ghost layers, or -1. Collective.
+  int find_surfaces(const fluid::MarkerSet &markers);
+
+  /// Finds on the grid where the inside of these surfaces is, for output. Collective.
+  void find_inside(const fluid::MarkerSet &markers);
+
+  /// The layer of atoms that move with atom->v, and by how much the mean of w over the box is above
+  /// that of u. Valid until the next call. Collective.
+  struct Moving {
+    fluid::DoubleLayer layer;
+    std::array<double, 3> mean_excess;
+  };
+  Moving layer(const fluid::MarkerSet &markers);
+
+  /// Makes velocities of the markers, three numbers for each of this rank's atoms, of what they see
+  /// of w with the last layer.
+  void read(const fluid::MarkerSet &markers, double *velocity) const;
+
+  /// The same without a layer, for estimates of the spectrum: a bound.
+  void bound(const fluid::MarkerSet &markers, double *velocity) const;
+
+  void report_to(const std::shared_ptr<CollectiveStop> & /*stop*/) override {}
+  std::vector<Section> sections() override { return {{"Contrast", &stopwatch_}}; }
+  std::size_t bytes() const;
+
+ private:
+  struct Kind {
+    CellMembranes *membranes;
+    double excess;    ///< viscosity inside over that of the fluid, less 1
+  };
+
+  DrivenFlow *flow_ = nullptr;
+  std::vector<Kind> kinds_;
+  const CellContact *contact_ = nullptr;
+  std::unique_ptr<const fluid::GapMobility> gaps_;    ///< made where it is first needed
+
+  // of this rank's atoms, zero for those without
+  std::vector<double> strength_;    ///< excess times area times outward normal
+  std::vector<double> place_;       ///< position within the cell
+  std::vector<double> seen_;        ///< of the layer with unit velocity
+  std::vector<double> wrong_;       ///< what vertices see of w of the last layer, but should not
+  rbc::Stopwatch stopwatch_;
+
+  double total_excess() const;
+  double excess_of(int i) const;
+  void add_blurred(fluid::KernelKind kernel);
+  void add_seen_across();
+  std::array<double, 3> mean_excess(const fluid::MarkerSet &markers) const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

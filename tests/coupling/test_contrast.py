@@ -1,0 +1,129 @@
+"""fix rbc/membrane interior: cells whose inside has a viscosity of its own."""
+
+import unittest
+
+import numpy as np
+
+from lammps_case import POTENTIALS, attempt, in_parallel, read_template, run, scene
+
+VISCOSITY, BOX = 1.5, 6
+NODES, TRIANGLES = read_template(POTENTIALS / "capsule_642.mol")[:2]
+COUNT = len(NODES)
+
+
+def area_vectors():
+    """A third of the areas around each vertex of the sphere, times their normals."""
+    a, b, c = (NODES[TRIANGLES[:, n]] for n in range(3))
+    third = np.cross(b - a, c - a) / 6
+    vectors = np.zeros_like(NODES)
+    for n in range(3):
+        np.add.at(vectors, TRIANGLES[:, n], third)
+    return vectors
+
+
+AREA = np.linalg.norm(area_vectors(), axis=1)
+NORMAL = NODES / np.linalg.norm(NODES, axis=1)[:, None]
+
+
+def velocities(forces, interior="", ib="tol 1e-6", dx=1 / 6, ranks=1, steps=0):
+    """Of all vertices of a sphere of radius 1 that these forces act on."""
+    columns = {f"f{axis}": forces[:, d] for d, axis in enumerate("xyz")}
+    before = [f"variable {name} atomfile {name}.txt" for name in columns]
+    before.append("fix push all addforce v_fx v_fy v_fz")
+    files = {f"{name}.txt": f"{len(column)}\n" + "".join(f"{n + 1} {value!r}\n" for n, value in enumerate(column.tolist()))
+             for name, column in columns.items()}
+    dump = "dump atoms all custom 1 atoms.dump id x y z vx vy vz\ndump_modify atoms sort id format float %.17g"
+    result = run(scene(
+        boundary="boundary p p p", box=f"region box block 0 {BOX} 0 {BOX} 0 {BOX}",
+        molecule=f"molecule rbc {POTENTIALS}/capsule_642.mol", cells="rbc/create rbc single 3.02 2.95 3.01 rotate 30 1 0.3 0",
+        neighbor="neighbor 0.3 bin", membrane=f"fix mem all rbc/membrane rbc neo-hookean 1e-30 volume yes {interior}",
+        before="\n".join(before), fluid=f"fix flow all rbc/fluid dx {dx} viscosity {VISCOSITY} density 1",
+        thermo="thermo_style custom step f_ib[11] f_ib[12] f_flow[1]", ib=f"fix ib all rbc/ib flow integrator midpoint {ib}",
+        timestep="timestep 1e-3", dump=dump, run=f"run {steps}"), ranks, files=files)
+    return result.dump()("vx", "vy", "vz"), result
+
+
+def rotated(vectors):
+    """As rbc/create turns the template in velocities()."""
+    axis, angle = np.array([1, 0.3, 0]) / np.hypot(1, 0.3), np.radians(30)
+    return (vectors * np.cos(angle) + np.cross(axis, vectors) * np.sin(angle)
+            + np.outer(vectors @ axis, axis) * (1 - np.cos(angle)))
+
+
+def twist(n):
+    return np.stack([-n[:, 0] * n[:, 2], n[:, 1] * n[:, 2], n[:, 0]**2 - n[:, 1]**2], axis=1)
+
+
+def strain(n):
+    return n @ np.array([[0, 0.7, 0], [0.7, 0, 0.5], [0, 0.5, 0]])
+
+
+# Velocity over the traction that causes it, of a sphere of radius 1 in a fluid of viscosity 1 (Lamb, Hydrodynamics, 1932).
+EXACT = {twist: lambda contrast: 1 / (contrast + 4), strain: lambda contrast: 1 / (2 * contrast + 3)}
+
+
+def response(mode, contrast):
+    traction = mode(rotated(NORMAL))
+    moves, _ = velocities(traction * AREA[:, None], f"interior {contrast * VISCOSITY}")
+    return VISCOSITY * np.sum(moves * traction) / np.sum(traction**2)
+
+
+class Sphere(unittest.TestCase):
+    def test_moves_as_its_tractions_ask(self):
+        # images of the periodic box change the second by a few parts of the volume fraction, 0.02
+        cases = [(mode, contrast) for mode in EXACT for contrast in (0.2, 5, 20)]
+        for (mode, contrast), seen in zip(cases, in_parallel(response, cases)):
+            off = seen / EXACT[mode](contrast) - 1
+            print(f"\n{mode.__name__}, inside {contrast} times as viscous: {off:+.2%}")
+            self.assertLess(abs(off), 0.015 if mode is twist else 0.02)
+
+    def test_falls_as_if_it_were_rigid(self):
+        forces = np.outer(AREA, [0.3, -0.2, 0.5])
+        alike, _ = velocities(forces, ib="")
+        for contrast in (0.1, 30):
+            moves, _ = velocities(forces, f"interior {contrast * VISCOSITY}")
+            mean = [AREA @ field / AREA.sum() for field in (moves, alike)]
+            print(f"\ninside {contrast} times as viscous: falls {np.linalg.norm(mean[0]) / np.linalg.norm(mean[1]) - 1:+.3%}")
+            np.testing.assert_allclose(*mean, rtol=5e-3)
+
+
+class Ranks(unittest.TestCase):
+    def test_one_and_two_agree(self):
+        forces = np.random.default_rng(3).normal(size=(COUNT, 3))
+        one, _ = velocities(forces, "interior 7.5", "tol 1e-11", dx=0.25)
+        two, _ = velocities(forces, "interior 7.5", "tol 1e-11", dx=0.25, ranks=2)
+        self.assertLess(abs(one - two).max(), 1e-8 * abs(one).max())
+
+    def test_no_force_takes_energy_from_the_fluid(self):
+        for seed in range(3):
+            forces = np.random.default_rng(seed).normal(size=(COUNT, 3))
+            moves, _ = velocities(forces, "interior 7.5", dx=0.25)
+            self.assertGreater(np.sum(forces * moves), 0)
+
+
+class Alike(unittest.TestCase):
+    def test_nothing_changes_where_the_viscosity_is_that_outside(self):
+        forces = np.random.default_rng(1).normal(size=(COUNT, 3))
+        without, _ = velocities(forces, "", "", dx=0.25, steps=3)
+        alike, result = velocities(forces, f"interior {VISCOSITY}", "", dx=0.25, steps=3)
+        np.testing.assert_array_equal(without, alike)
+        self.assertNotIn("Contrast", result.printed)
+
+
+class Errors(unittest.TestCase):
+    def check(self, message, **changes):
+        result = attempt(scene(run="run 0", **changes))
+        self.assertIn(message, result.error)
+
+    def test_bad_settings(self):
+        membrane = "fix mem all rbc/membrane rbc mooney-rivlin 0.257 0.0257 0.01 interior "
+        self.check("interior value 0 must be > 0", membrane=membrane + "0")
+        self.check("interior needs a fix rbc/ib", membrane=membrane + "7.5", ib="")
+        self.check("needs fix rbc/ib ib with sheets yes", membrane=membrane + "7.5",
+                   ib="fix ib all rbc/ib flow integrator midpoint sheets no")
+        self.check("needs its inertia none", membrane=membrane + "7.5",
+                   fluid="fix flow all rbc/fluid dx 1.0 viscosity 1.5 density 1.025 inertia unsteady wall zlo 0 0 0 wall zhi 0 0 0")
+
+
+if __name__ == "__main__":
+    unittest.main()
