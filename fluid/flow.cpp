@@ -298,7 +298,7 @@ const VectorField &Flow::fluid_velocity()
     Box box = halo_.box();
     if (!box.empty()) ++box.lo[c];
     for_each_cell(box, [&, w = total_.velocity[c], u = fluid_velocity_[c],
-                        excess = inside_[0]](int i, int j, int k) {
+                        excess = excess_[0]](int i, int j, int k) {
       const double below = excess(i - (c == 0), j - (c == 1), k - (c == 2));
       u(i, j, k) = w(i, j, k) / (1 + 0.5 * (below + excess(i, j, k)));
     });
@@ -307,24 +307,25 @@ const VectorField &Flow::fluid_velocity()
 }
 
 /// The force of such surfaces is a gradient, and what they drive is no flow but its pressure.
-int Flow::find_inside(const MarkerSet &markers, const double *step, double mean)
+int Flow::find_inside(const MarkerSet &markers, const double *step, double mean,
+                      const ScalarField &inside)
 {
   if (!mobility_.force.bytes()) mobility_.force = VectorField(halo_.box());
-  if (!inside_.bytes()) inside_ = ScalarField(halo_.box());
   mobility_.clear_force();
   const int outside = fluid::spread(grid_, markers, step, -1.0, mobility_.force, halo_.box());
   accumulate_ghosts_of(mobility_);
-  solver_.pressure(mobility_.force, {}, inside_);
+  solver_.pressure(mobility_.force, {}, inside);
   ++solves_;
-  for_each_cell(brick(), [&, value = inside_[0]](int i, int j, int k) { value(i, j, k) += mean; });
-  halo_.fill(inside_.views());
+  for_each_cell(brick(), [&, value = inside[0]](int i, int j, int k) { value(i, j, k) += mean; });
   return outside;
 }
 
-const ScalarField &Flow::inside()
+int Flow::find_excess(const MarkerSet &markers, const double *step, double mean)
 {
-  if (!inside_.bytes()) inside_ = ScalarField(halo_.box());
-  return inside_;
+  if (!excess_.bytes()) excess_ = ScalarField(halo_.box());
+  const int outside = find_inside(markers, step, mean, excess_);
+  halo_.fill(excess_.views());
+  return outside;
 }
 
 void Flow::add_mean(const Real3 &velocity)
@@ -359,7 +360,7 @@ Traffic Flow::traffic() const
 std::size_t Flow::bytes() const
 {
   std::size_t sum = pressure_.bytes() + halo_.bytes() + solver_.bytes() + sheets_.bytes() +
-                    inside_.bytes() + total_.source.bytes() + mobility_.source.bytes();
+                    excess_.bytes() + total_.source.bytes() + mobility_.source.bytes();
   for (const ForcedVelocity *flow : {&total_, &mobility_})
     for (const VectorField *field :
          {&flow->force, &flow->velocity, &flow->of_layers, &flow->double_layer})

@@ -76,15 +76,17 @@ class Flow {
                      const DoubleLayer *layer = nullptr, const Real3 &mean = {0, 0, 0});
   void add_mobility_flow(double factor);
 
-  /// Finds the function of space that is zero outside of closed surfaces and falls across them, in
-  /// the direction of their outward normal, by the length of `step` over the area: rows as the
-  /// markers', a number times area times normal. `mean` is its mean over the grid. Costs a solve,
-  /// and memory at the first call. Returns what spread does; valid if that is -1 on all ranks.
-  /// Collective.
-  int find_inside(const MarkerSet &markers, const double *step, double mean);
+  /// Finds the function of space that is zero outside of closed surfaces of markers and falls
+  /// across them, in the direction of their outward normal, by the length of `step` over the area:
+  /// rows as the markers', a number times area times normal. `mean` is its mean over the grid. Sets
+  /// the function at the centres of the brick's cells. Costs a solve. Returns what spread does;
+  /// valid if that is -1 on all ranks. Collective.
+  int find_inside(const MarkerSet &markers, const double *step, double mean,
+                  const ScalarField &inside);
 
-  /// The function at the centres of cells, ghosts included; zero before the first find_inside().
-  const ScalarField &inside();
+  /// Takes this function, for these double layers, as the relative viscosity less 1 that
+  /// fluid_velocity() needs.
+  int find_excess(const MarkerSet &markers, const double *step, double mean);
 
   /// Adds a uniform velocity, ghosts included: triply periodic and without inertia only, where no
   /// force drives the mean.
@@ -103,7 +105,7 @@ class Flow {
   const VectorField &velocity() const { return total_.velocity; }
 
   /// The velocity of the fluid on the brick and the faces around it: velocity() with its ghosts
-  /// filled, but with double layers that over the relative viscosity of the last find_inside().
+  /// filled, but with double layers that over the relative viscosity of the last find_excess().
   /// Valid until the flow changes. Collective.
   const VectorField &fluid_velocity();
 
@@ -200,8 +202,8 @@ class Flow {
   bool stepped_ = false;    ///< start_step() was called since construction or restore()
 
   ScalarField pressure_;
-  ForcedVelocity mobility_;    ///< of the last apply_mobility; scratch of find_inside
-  ScalarField inside_;
+  ForcedVelocity mobility_;       ///< of the last apply_mobility; find_inside uses its force
+  ScalarField excess_;            ///< of the viscosity, relative, with double layers
   VectorField fluid_velocity_;    ///< where it is not the velocity solved for
   SheetVelocity sheets_;
   StokesSolver solver_;

@@ -161,19 +161,20 @@ void FixRBCIB::init()
 
   std::vector<CellMembranes *> membranes = all_cell_membranes(lmp);
   const bool late_forces = check_order();
-  bool viscous = false;
+  bool viscous = false, filled = false;
   for (CellMembranes *cells : membranes) {
     cells->report_to(markers->stop());
     if (cells->keeps_volume() || cells->is_viscous() || cells->is_smoothed() ||
         cells->interior_viscosity() > 0)
       check_moves_all(*cells);
     viscous = viscous || cells->is_viscous();
+    filled = filled || cells->interior_viscosity() > 0;
   }
   if (viscous && flow->has_inertia())
     error->all(FLERR, "Fix rbc/ib {}: membranes with viscosity need fix rbc/fluid {} inertia none",
                id, fluid);
   start_contrast(membranes);
-  if (iterates && !masses && !viscous && !contrast.acts())
+  if (iterates && !masses && !viscous && !filled)
     error->all(FLERR, "Fix rbc/ib tol and maxiter need scheme direct or a fix rbc/membrane with "
                       "viscosity or interior");
   for (FluidClient *client : fluid_clients(modify))
@@ -186,67 +187,6 @@ void FixRBCIB::init()
   start_gaps(membranes);
   start_smoothing(membranes);
   steps->start_run(flow, late_forces);
-}
-
-/* ----------------------------------------------------------------------
-   Points have no surfaces that could slide.
-------------------------------------------------------------------------- */
-
-void FixRBCIB::start_gaps(const std::vector<CellMembranes *> &membranes)
-{
-  if (gaps && has_sheets()) gaps->start_run(*flow, membranes, find_cell_contact(force));
-  markers->set_gap_slip(slides_in_gaps() ? gaps.get() : nullptr);
-  if (!asks_gaps || slides_in_gaps()) return;
-  if (!has_sheets())
-    error->all(FLERR, "Fix rbc/ib {} gaps yes needs a fix rbc/membrane, whose surfaces can slide",
-               id);
-  if (comm->me == 0)
-    error->warning(FLERR,
-                   "Fix rbc/ib {} gaps yes has no effect: there is no pair_style rbc/jkr, which "
-                   "knows which surfaces are near, and there are no plates",
-                   id);
-}
-
-void FixRBCIB::start_contrast(const std::vector<CellMembranes *> &membranes)
-{
-  contrast.start_run(flow, membranes, kernel, find_cell_contact(force));
-  if (!contrast.acts()) return;
-  if (flow->has_inertia())
-    error->all(FLERR,
-               "Fix rbc/membrane interior other than the viscosity of fix rbc/fluid {} needs its "
-               "inertia none",
-               fluid);
-  if (!has_sheets())
-    error->all(FLERR,
-               "Fix rbc/membrane interior other than the viscosity of fix rbc/fluid {} needs fix "
-               "rbc/ib {} with sheets yes",
-               fluid, id);
-}
-
-void FixRBCIB::start_smoothing(const std::vector<CellMembranes *> &membranes)
-{
-  tractions.start_run(*flow, membranes);
-  markers->set_traction_filter(tractions.acts() ? &tractions : nullptr);
-  if (tractions.acts() && !has_sheets())
-    error->all(FLERR,
-               "Fix rbc/membrane smooth yes needs fix rbc/ib {} with sheets yes and scheme elastic",
-               id);
-}
-
-bool FixRBCIB::slides_in_gaps() const
-{
-  return gaps && has_sheets() && gaps->acts();
-}
-
-double FixRBCIB::widest_gap() const
-{
-  const auto fluid_fix = dynamic_cast<FixRBCFluid *>(modify->get_fix_by_id(fluid));
-  if (!fluid_fix || !has_sheets()) return 0;
-  DrivenFlow &of_fluid = fluid_fix->driven_flow();
-  double widest = gaps ? gaps->widest_gap(of_fluid) : 0;
-  if (has_layers(of_fluid.settings().equations.viscosity))
-    widest = std::max(widest, contrast.widest_gap(of_fluid, kernel));
-  return widest;
 }
 
 /* ----------------------------------------------------------------------
@@ -283,27 +223,6 @@ int FixRBCIB::pack_reverse_comm(int n, int first, double *buf)
 void FixRBCIB::unpack_reverse_comm(int n, int *list, double *buf)
 {
   exchanged->add_reverse(n, list, buf);
-}
-
-/* ---------------------------------------------------------------------- */
-
-bool FixRBCIB::has_sheets() const
-{
-  if (sheets != Sheets::WITH_MEMBRANES) return sheets == Sheets::YES;
-  return !masses && !all_cell_membranes(lmp).empty();
-}
-
-fluid::MarkerKind FixRBCIB::marker_kind() const
-{
-  if (contrast.acts()) return fluid::MarkerKind::layers;
-  return has_sheets() ? fluid::MarkerKind::sheets : fluid::MarkerKind::points;
-}
-
-bool FixRBCIB::has_layers(double viscosity) const
-{
-  for (const CellMembranes *cells : all_cell_membranes(lmp))
-    if (cells->interior_viscosity() > 0 && cells->interior_viscosity() != viscosity) return true;
-  return false;
 }
 
 /* ---------------------------------------------------------------------- */

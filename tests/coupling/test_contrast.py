@@ -25,7 +25,7 @@ AREA = np.linalg.norm(area_vectors(), axis=1)
 NORMAL = NODES / np.linalg.norm(NODES, axis=1)[:, None]
 
 
-def velocities(forces, interior="", ib="tol 1e-6", dx=1 / 6, ranks=1, steps=0):
+def velocities(forces, interior="", ib="tol 1e-6", dx=1 / 6, ranks=1, steps=0, more=""):
     """Of all vertices of a sphere of radius 1 that these forces act on."""
     columns = {f"f{axis}": forces[:, d] for d, axis in enumerate("xyz")}
     before = [f"variable {name} atomfile {name}.txt" for name in columns]
@@ -37,9 +37,9 @@ def velocities(forces, interior="", ib="tol 1e-6", dx=1 / 6, ranks=1, steps=0):
         boundary="boundary p p p", box=f"region box block 0 {BOX} 0 {BOX} 0 {BOX}",
         molecule=f"molecule rbc {POTENTIALS}/capsule_642.mol", cells="rbc/create rbc single 3.02 2.95 3.01 rotate 30 1 0.3 0",
         neighbor="neighbor 0.3 bin", membrane=f"fix mem all rbc/membrane rbc neo-hookean 1e-30 volume yes {interior}",
-        before="\n".join(before), fluid=f"fix flow all rbc/fluid dx {dx} viscosity {VISCOSITY} density 1",
+        before="\n".join(before), fluid=f"fix flow all rbc/fluid dx {dx} viscosity {VISCOSITY}",
         thermo="thermo_style custom step f_ib[11] f_ib[12] f_flow[1]", ib=f"fix ib all rbc/ib flow integrator midpoint {ib}",
-        timestep="timestep 1e-3", dump=dump, run=f"run {steps}"), ranks, files=files)
+        timestep="timestep 1e-3", dump=dump + "\n" + more, run=f"run {steps}"), ranks, files=files)
     return result.dump()("vx", "vy", "vz"), result
 
 
@@ -85,6 +85,30 @@ class Sphere(unittest.TestCase):
             mean = [AREA @ field / AREA.sum() for field in (moves, alike)]
             print(f"\ninside {contrast} times as viscous: falls {np.linalg.norm(mean[0]) / np.linalg.norm(mean[1]) - 1:+.3%}")
             np.testing.assert_allclose(*mean, rtol=5e-3)
+
+
+class Inside(unittest.TestCase):
+    def test_flow_is_that_of_the_fluid(self):
+        # tractions that strain a sphere strain its inside evenly
+        contrast, traction = 5, strain(rotated(NORMAL))
+        columns = " ".join(f"f_flow:grid:{name}" for name in ("interior", "velocity[1]", "velocity[2]", "velocity[3]"))
+        _, result = velocities(traction * AREA[:, None], f"interior {contrast * VISCOSITY}",
+                               more=f"fix grid all ave/grid 1 1 1 36 36 36 {columns}\n"
+                               "dump grid all grid 1 flow.grid f_grid:grid:data[*]")
+        rows = [line.split() for line in (result.folder / "flow.grid").read_text().splitlines()]
+        grid = np.array([row for row in rows if len(row) == 4 and row[0] != "ITEM:"], dtype=float).reshape(36, 36, 36, 4)
+        centres = (np.arange(36) + 0.5) / 6
+        z, y, x = np.meshgrid(centres, centres, centres, indexing="ij")
+        place = np.stack([x - 3.02, y - 2.95, z - 3.01], axis=-1)
+        radius = np.linalg.norm(place, axis=-1)
+        share, u = grid[..., 0], grid[..., 1:]
+        volume = np.sum(area_vectors() * NODES) / 3
+        self.assertAlmostEqual(share.sum() / 216 / volume, 1, delta=4e-3)    # what overshoots is cut off
+        self.assertGreater(share[radius < 0.6].min(), 0.99)
+        self.assertLess(share[radius > 1.4].max(), 0.01)
+        within = radius < 0.6
+        expected = strain(place[within]) / (VISCOSITY * (2 * contrast + 3))
+        self.assertLess(abs(u[within] - expected).max(), 0.05 * abs(expected).max())
 
 
 class Ranks(unittest.TestCase):

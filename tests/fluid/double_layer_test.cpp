@@ -167,8 +167,9 @@ TEST(DoubleLayer, Inside)
 {
   for (KernelKind kernel : kernels) {
     Ball ball(6, kernel, 24);
-    EXPECT_EQ(ball.flow.find_inside(ball.markers(), numbers(ball.strength), ball.fraction()), -1);
-    const ScalarField &inside = ball.flow.inside();
+    const ScalarField inside(ball.flow.brick());
+    EXPECT_EQ(
+        ball.flow.find_inside(ball.markers(), numbers(ball.strength), ball.fraction(), inside), -1);
     double wrong = 0;
     for_each(ball.flow.brick(), [&](int i, int j, int k) {
       Real3 r = location(ball.grid, centre, i, j, k);

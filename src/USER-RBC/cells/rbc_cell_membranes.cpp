@@ -338,22 +338,40 @@ void CellMembranes::constrain_volume(double dt, bool new_step, bool mid_step)
   const double rest_rate = rate(swelling.change() * shape().volume, dt);
   find_volume_sums();
 
-  double **const v = atom->v;
-  const int size = shape().vertex_count();
   const auto &local = cells_.cells();
   for (std::size_t c = 0; c < local.size(); ++c) {
     const LocalCells::Cell &cell = local[c];
     if (!(sums_[3 * c + 2] > 0)) report(cell, "the cell turned inside out", Flaw::folded);
     if (new_step) volume_rates_[c] = rate(rest - sums_[3 * c + 2], VOLUME_STEPS * dt);
     const double factor = (volume_rates_[c] + rest_rate - sums_[3 * c]) / sums_[3 * c + 1];
-    const Vec3 *const gradient = &volume_gradient_[c * size];
-    for (int i = 0; i < size; ++i) {
-      if (!cell.elements->owned[i]) continue;
-      double *const velocity = v[cell.atom[i]];
-      for (int d = 0; d < 3; ++d) velocity[d] += factor * gradient[i][d];
-    }
+    add_volume_gradient(c, factor);
   }
   stopwatch_.stop();
+}
+
+void CellMembranes::remove_volume_change()
+{
+  stopwatch_.start();
+  find_volume_sums();
+  for (std::size_t c = 0; c < cells_.cells().size(); ++c)
+    add_volume_gradient(c, -sums_[3 * c] / sums_[3 * c + 1]);
+  stopwatch_.stop();
+}
+
+/* ----------------------------------------------------------------------
+   to the velocities of this rank's vertices of cell c here
+------------------------------------------------------------------------- */
+
+void CellMembranes::add_volume_gradient(std::size_t c, double factor)
+{
+  const LocalCells::Cell &cell = cells_.cells()[c];
+  const int size = shape().vertex_count();
+  const Vec3 *const gradient = &volume_gradient_[c * size];
+  for (int i = 0; i < size; ++i) {
+    if (!cell.elements->owned[i]) continue;
+    double *const velocity = atom->v[cell.atom[i]];
+    for (int d = 0; d < 3; ++d) velocity[d] += factor * gradient[i][d];
+  }
 }
 
 /* ----------------------------------------------------------------------
@@ -380,37 +398,6 @@ void CellMembranes::find_volume_sums()
     sums_[3 * c + 2] = model_.area_and_volume().volume;
   }
   cells_.sum_shared(sums_, 3);
-}
-
-/* ---------------------------------------------------------------------- */
-
-void CellMembranes::visit_volume_gradients(const GradientVisitor &visit)
-{
-  const int size = shape().vertex_count();
-  gradient_.resize(size);
-  for (const LocalCells::Cell &cell : cells_.cells()) {
-    set_current_cell(cell);
-    model_.volume_gradient(gradient_.data());
-    for (int i = 0; i < size; ++i)
-      if (cell.elements->owned[i]) visit(cell.atom[i], gradient_[i], x_[i]);
-  }
-}
-
-/* ---------------------------------------------------------------------- */
-
-void CellMembranes::visit_surface_shear(const ShearVisitor &visit)
-{
-  const int size = shape().vertex_count();
-  v_.resize(size);
-  gradient_.resize(size);
-  area_.resize(size);
-  for (const LocalCells::Cell &cell : cells_.cells()) {
-    set_current_cell(cell);
-    gather_velocities(cell);
-    model_.surface_shear(v_.data(), gradient_.data(), area_.data());
-    for (int i = 0; i < size; ++i)
-      if (cell.elements->owned[i]) visit(cell.atom[i], gradient_[i] / area_[i]);
-  }
 }
 
 /* ---------------------------------------------------------------------- */

@@ -114,6 +114,9 @@ class CellMembranes : public StepPart, protected Pointers {
   /// of the step. Collective.
   void constrain_volume(double dt, bool new_step, bool mid_step);
 
+  /// The linear part of this: changes the atoms' velocities such that no volume changes.
+  void remove_volume_change();
+
   /// Calls visit(i, dV/dx_i, x_i) for each vertex that is an atom i of this rank, V the volume of
   /// its cell and x_i the position relative to an origin that the cell has on all ranks. dV/dx_i is
   /// a third of the areas around the vertex, times their outward normals. Not collective.
@@ -167,6 +170,7 @@ class CellMembranes : public StepPart, protected Pointers {
   double viscous_forces(const LocalCells::Cell &cell);
   void add_to_atoms(const LocalCells::Cell &cell, bool with_virial);
   void find_volume_sums();
+  void add_volume_gradient(std::size_t c, double factor);
   void report(const LocalCells::Cell &cell, const std::string &what, Flaw flaw);
 };
 

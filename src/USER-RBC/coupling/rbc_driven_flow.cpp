@@ -180,10 +180,10 @@ int DrivenFlow::spread(const fluid::MarkerSet &markers, const fluid::DoubleLayer
   return outside;
 }
 
-int DrivenFlow::find_inside(const fluid::MarkerSet &markers, const double *step, double mean)
+int DrivenFlow::find_excess(const fluid::MarkerSet &markers, const double *step, double mean)
 {
   solving_.start();
-  const int outside = flow_->find_inside(markers, step, mean);
+  const int outside = flow_->find_excess(markers, step, mean);
   solving_.stop();
   return outside;
 }

@@ -116,7 +116,7 @@ class DrivenFlow : public StepPart, protected Pointers {
              const std::array<double, 3> &excess);
 
   /// See fluid::Flow. Collective.
-  int find_inside(const fluid::MarkerSet &markers, const double *step, double mean);
+  int find_excess(const fluid::MarkerSet &markers, const double *step, double mean);
 
   /// Computes the velocity of the fluid from the forces spread, the forcing and, if `with_walls`,
   /// the walls. Checks `stop` first: an error reported there ends the run, or throws FailedTrial

@@ -9,10 +9,11 @@ using namespace LAMMPS_NS;
 
 int GridOutput::find(const std::string &name, int &columns)
 {
-  columns = name == "pressure" ? 0 : 3;
+  columns = name == "pressure" || name == "interior" ? 0 : 3;
   if (name == "velocity") return VELOCITY;
   if (name == "pressure") return PRESSURE;
   if (name == "force") return FORCE;
+  if (name == "interior") return INTERIOR;
   return -1;
 }
 
@@ -30,7 +31,9 @@ void *GridOutput::get(int index, fluid::Flow &flow, const std::array<double, 3> 
   version_[index] = version;
 
   if (index == PRESSURE)
-    fill_pressure(flow);
+    fill_scalar(PRESSURE, flow.pressure(), 1.0 / force->ftm2v);
+  else if (index == INTERIOR)
+    fill_scalar(INTERIOR, fraction_.find(flow), 1.0);
   else if (index == VELOCITY) {
     fill_vector(VELOCITY, &flow.fluid_velocity(), {0, 0, 0}, 1.0);
   } else {
@@ -49,7 +52,7 @@ void *GridOutput::allocate(int index)
 {
   if (box_.empty()) return nullptr;
   const auto &[lo, hi] = box_;
-  if (index == PRESSURE) {
+  if (is_scalar(index)) {
     double ***p = nullptr;
     return memory->create3d_offset(p, lo[2], hi[2] - 1, lo[1], hi[1] - 1, lo[0], hi[0] - 1,
                                    "rbc/fluid:pressure");
@@ -66,7 +69,7 @@ void GridOutput::free()
   const auto &lo = box_.lo;
   for (int index = 0; index < KINDS; ++index) {
     if (!data_[index]) continue;
-    if (index == PRESSURE) {
+    if (is_scalar(index)) {
       auto p = static_cast<double ***>(data_[index]);
       memory->destroy3d_offset(p, lo[2], lo[1], lo[0]);
     } else {
@@ -83,19 +86,17 @@ double GridOutput::bytes() const
 {
   double numbers = 0;
   for (int index = 0; index < KINDS; ++index)
-    if (data_[index]) numbers += static_cast<double>(box_.size()) * (index == PRESSURE ? 1 : 3);
-  return numbers * sizeof(double);
+    if (data_[index]) numbers += static_cast<double>(box_.size()) * (is_scalar(index) ? 1 : 3);
+  return numbers * sizeof(double) + static_cast<double>(fraction_.bytes());
 }
 
 /* ---------------------------------------------------------------------- */
 
-void GridOutput::fill_pressure(fluid::Flow &flow)
+void GridOutput::fill_scalar(int index, const fluid::ScalarField &centres, double scale)
 {
-  const auto pressure = flow.pressure()[0];
-  const double to_pressure = 1.0 / force->ftm2v;
-  auto p = static_cast<double ***>(data_[PRESSURE]);
-  fluid::for_each_cell(box_,
-                       [&](int i, int j, int k) { p[k][j][i] = pressure(i, j, k) * to_pressure; });
+  auto p = static_cast<double ***>(data_[index]);
+  fluid::for_each_cell(
+      box_, [&, from = centres[0]](int i, int j, int k) { p[k][j][i] = from(i, j, k) * scale; });
 }
 
 /* ----------------------------------------------------------------------

@@ -1,6 +1,7 @@
 #ifndef LMP_RBC_GRID_OUTPUT_H
 #define LMP_RBC_GRID_OUTPUT_H
 
+#include "coupling/rbc_cell_fraction.h"
 #include "fluid/flow.h"
 #include "lmptype.h"
 #include "pointers.h"
@@ -12,10 +13,10 @@ namespace LAMMPS_NS {
 
 /// The flow at the centres of cells, in LAMMPS's arrays, as dumps and fix ave/grid ask for it. Each
 /// array is made when first asked for and filled at most once a version of the flow; the pressure
-/// costs a solve.
+/// and the share of cells cost a solve each.
 class GridOutput : protected Pointers {
  public:
-  using Pointers::Pointers;
+  explicit GridOutput(LAMMPS *lmp) : Pointers(lmp), fraction_(lmp) {}
   GridOutput(const GridOutput &) = delete;
   GridOutput &operator=(const GridOutput &) = delete;
   ~GridOutput() override { free(); }
@@ -33,14 +34,17 @@ class GridOutput : protected Pointers {
   double bytes() const;
 
  private:
-  enum Kind { VELOCITY, PRESSURE, FORCE, KINDS };
+  enum Kind { VELOCITY, PRESSURE, FORCE, INTERIOR, KINDS };
 
   std::array<void *, KINDS> data_{};
   std::array<bigint, KINDS> version_{};
   fluid::Box box_;
+  CellFraction fraction_;
+
+  static bool is_scalar(int index) { return index == PRESSURE || index == INTERIOR; }
 
   void *allocate(int index);
-  void fill_pressure(fluid::Flow &flow);
+  void fill_scalar(int index, const fluid::ScalarField &centres, double scale);
   void fill_vector(int index, const fluid::VectorField *faces, const std::array<double, 3> &uniform,
                    double scale);
 };

@@ -152,7 +152,8 @@ void ImmersedMarkers::velocities_from_forces(Stage stage)
     implicit_.solve(stage);
   else
     velocities_of_flow(stage);
-  if (contrast_ && !estimating_spectrum_ && stage != Stage::within) contrast_->find_inside(set());
+  excess_is_behind_ = contrast_;
+  if (stage != Stage::within) complete_flow();
   check_velocities(stage);
   flow_->finish_step();
 }
@@ -177,6 +178,17 @@ void ImmersedMarkers::velocities_of_flow(Stage stage)
     if (gaps_) gaps_->add(members_, rows(atom->f), factor, rows(atom->v));
   }
   constrain_volume(stage);
+}
+
+void ImmersedMarkers::complete_flow()
+{
+  if (implicit_.flow_is_behind()) {
+    load(atom->v, found_);
+    velocities_of_flow(Stage::within);
+    store(found_, atom->v);
+  }
+  if (excess_is_behind_) contrast_->find_excess(set());
+  excess_is_behind_ = false;
 }
 
 /* ----------------------------------------------------------------------
@@ -208,6 +220,11 @@ void ImmersedMarkers::constrain_volume(Stage stage)
   const bool inertia = flow_->has_inertia();
   for (CellMembranes *cells : volume_keepers_)
     cells->constrain_volume(update->dt, inertia || stage == Stage::start, inertia);
+}
+
+void ImmersedMarkers::remove_volume_change()
+{
+  for (CellMembranes *cells : volume_keepers_) cells->remove_volume_change();
 }
 
 /* ---------------------------------------------------------------------- */

@@ -94,6 +94,13 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
 
   void constrain_volume(Stage stage);
 
+  /// The linear part of this, on atom->v.
+  void remove_volume_change();
+
+  /// Makes the flow that of the velocities of the last evaluation, for output; within a step it may
+  /// be left as it was before they were found.
+  void complete_flow();
+
   /// All forces at the positions and with the velocities of the atoms, as Verlet computes them at
   /// the end of a step.
   void recompute_forces();
@@ -155,8 +162,10 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
   ViscosityContrast *contrast_ = nullptr;
   std::shared_ptr<CollectiveStop> stop_;
   rbc::Stopwatch exchanging_;
+  bool excess_is_behind_ = false;    ///< the viscosity of the grid is of an earlier evaluation
   bool estimating_spectrum_ = false, any_speed_between_steps_ = false;
   int parts_ = 1;           ///< of the step
+  rbc::Numbers found_;      ///< velocities
   rbc::Numbers applied_;    ///< a row for each atom here
 
   double *rows(double **array) const { return members_.empty() ? nullptr : array[0]; }

@@ -15,6 +15,11 @@ using rbc::Numbers;
 
 static constexpr int MOST_ROUNDS = 20;
 
+// Part of the tolerance that iterations reach, so that velocities found are within it when they are
+// evaluated once more at the start of a run.
+
+static constexpr double MARGIN = 0.7;
+
 /* ---------------------------------------------------------------------- */
 
 void ImplicitVelocity::set_limits(double tolerance, int max_iterations)
@@ -50,6 +55,7 @@ bool ImplicitVelocity::needs_rounds() const
 void ImplicitVelocity::solve(EvaluationStage stage)
 {
   const bool rounds = needs_rounds();
+  flow_is_behind_ = false;
   ++evaluations_;
   double count = static_cast<double>(markers_.members().size());
   markers_.sum(&count, 1);
@@ -69,13 +75,14 @@ void ImplicitVelocity::solve(EvaluationStage stage)
 
     markers_.store(guess_, atom->v);
     for (CellMembranes *cells : viscous_) cells->linearise(frozen);
-    const double left = solve_linear(rounds ? allowed / 2 : allowed);
+    const double left = solve_linear(rounds ? allowed / 2 : contrast_ ? MARGIN * allowed : allowed);
     correct_forces();
     markers_.store(guess_, atom->v);
-    if (rounds || stage != EvaluationStage::within || !contrast_)
-      markers_.velocities_of_flow(stage);
-    else
+    flow_is_behind_ = contrast_ && !rounds;
+    if (flow_is_behind_)
       markers_.constrain_volume(stage);
+    else
+      markers_.velocities_of_flow(stage);
     if (rounds) continue;
     error_ = scale > 0 ? left / scale : 0;
     if (left <= allowed) return;
@@ -125,6 +132,10 @@ void ImplicitVelocity::response(const Numbers &p, Numbers &v)
   const std::vector<int> &members = markers_.members();
   for (std::size_t n = 0; n < members.size(); ++n)
     for (int d = 0; d < 3; ++d) v[3 * n + d] = -response_[3 * std::size_t(members[n]) + d];
+  if (!contrast_) return;
+  markers_.store(v, atom->v);
+  markers_.remove_volume_change();
+  markers_.load(atom->v, v);
 }
 
 /* ----------------------------------------------------------------------

@@ -22,11 +22,11 @@ class ViscosityContrast;
 /// Here Z turns velocities into viscous forces -Z V of the membranes, M turns forces on the markers
 /// into their velocities, D velocities into those that their double layer adds, and U is the
 /// velocity caused by everything else. One round solves this linear system by GMRES, and then
-/// evaluates the flow with the velocities found, where that is of use to anyone: at the ends of
-/// steps. One round is enough unless the viscosity of membranes depends on the rate (then Z depends
-/// on V, and the rounds are those of Newton's method) or there are rigid walls (which M and D leave
-/// out). A round that does not halve the error is followed by one that takes the viscosity of the
-/// present velocities as constant; such a round always lowers the error (Kacanov's method).
+/// evaluates the flow with the velocities found; with double layers alone those are the result. One
+/// round is enough unless the viscosity of membranes depends on the rate (then Z depends on V, and
+/// the rounds are those of Newton's method) or there are rigid walls (which M and D leave out). A
+/// round that does not halve the error is followed by one that takes the viscosity of the present
+/// velocities as constant; such a round always lowers the error (Kacanov's method).
 class ImplicitVelocity : protected Pointers {
  public:
   ImplicitVelocity(LAMMPS *lmp, ImmersedMarkers &markers) : Pointers(lmp), markers_(markers) {}
@@ -48,6 +48,9 @@ class ImplicitVelocity : protected Pointers {
   /// Collective: velocities from the forces and velocities that the atoms hold. An evaluation of
   /// the flow in each round.
   void solve(EvaluationStage stage);
+
+  /// Whether the flow is that of velocities other than those found last.
+  bool flow_is_behind() const { return flow_is_behind_; }
 
   /// Iterations of an evaluation in this run, and evaluations that did not reach the tolerance.
   double mean_iterations() const
@@ -71,6 +74,7 @@ class ImplicitVelocity : protected Pointers {
   rbc::Gmres gmres_;
   bigint evaluations_ = 0, iterations_ = 0, unconverged_ = 0;
   double error_ = 0;
+  bool flow_is_behind_ = false;
 
   rbc::Numbers guess_, forces_, residual_, correction_;
   rbc::Numbers response_;    ///< a row for each atom here

@@ -188,10 +188,12 @@ void TimeSteps::compare_velocities()
 
 bool TimeSteps::are_velocities_same()
 {
+  const double fastest = markers_.fastest();
   markers_.load(atom->v, V_new_);
   for (std::size_t i = 0; i < V_.size(); ++i) V_new_[i] -= V_[i];
-  const double tolerance = std::max(SAME, 2 * markers_.implicit().tolerance());
-  return root_mean_square(markers_, V_new_) <= tolerance * root_mean_square(markers_, V_);
+  return root_mean_square(markers_, V_new_) <=
+         std::max(SAME * root_mean_square(markers_, V_),
+                  2 * markers_.implicit().tolerance() * fastest);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -215,9 +217,10 @@ void TimeSteps::finish()
 {
   if (!flow_->has_inertia()) {
     flow_->set_time_now();
-    if (std::exchange(velocities_known_, false))
+    if (std::exchange(velocities_known_, false)) {
       markers_.constrain_volume(ImmersedMarkers::Stage::start);
-    else
+      markers_.complete_flow();
+    } else
       markers_.velocities_from_forces(ImmersedMarkers::Stage::start);
   }
   velocity_step_ = step();

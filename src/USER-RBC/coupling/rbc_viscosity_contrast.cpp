@@ -60,9 +60,9 @@ int ViscosityContrast::find_surfaces(const fluid::MarkerSet &markers)
   return flow_->apply_mobility(markers, nullptr, seen_.data(), &unit, {mean, mean, mean});
 }
 
-void ViscosityContrast::find_inside(const fluid::MarkerSet &markers)
+void ViscosityContrast::find_excess(const fluid::MarkerSet &markers)
 {
-  flow_->find_inside(markers, strength_.data(), total_excess() / flow_->box_volume());
+  flow_->find_excess(markers, strength_.data(), total_excess() / flow_->box_volume());
 }
 
 /* ----------------------------------------------------------------------

@@ -20,10 +20,10 @@ class DrivenFlow;
 /// in the fluid outside, w = u eta(x) / eta. It needs the velocities of the membranes, so these are
 /// the solution of an equation. What a vertex sees of w is u times 1 + e, with e what it sees of a
 /// layer that moves with unit velocity: half of eta(x) / eta - 1 inside at a plane surface, another
-/// share where surfaces are near each other or curved. The slope of w differs between the two sides of a surface by
-/// surface_shear() times eta(x) / eta - 1; what kernels blur of that is taken off. So is, in the
-/// part that is relative motion, what a vertex sees of the inside of other cells near it. See
-/// theory.rst.
+/// share where surfaces are near each other or curved. The slope of w differs between the two sides
+/// of a surface by surface_shear() times eta(x) / eta - 1; what kernels blur of that is taken off.
+/// So is, in the part that is relative motion, what a vertex sees of the inside of other cells near
+/// it. See theory.rst.
 class ViscosityContrast : public StepPart, protected Pointers {
  public:
   explicit ViscosityContrast(LAMMPS *lmp) : Pointers(lmp) {}
@@ -43,8 +43,8 @@ class ViscosityContrast : public StepPart, protected Pointers {
   /// viscosity. Returns the first marker whose kernel leaves the ghost layers, or -1. Collective.
   int find_surfaces(const fluid::MarkerSet &markers);
 
-  /// Finds on the grid where the inside of these surfaces is, for output. Collective.
-  void find_inside(const fluid::MarkerSet &markers);
+  /// Finds the viscosity on the grid inside of these surfaces, for output. Collective.
+  void find_excess(const fluid::MarkerSet &markers);
 
   /// The layer of atoms that move with atom->v, and by how much the mean of w over the box is above
   /// that of u. Valid until the next call. Collective.
