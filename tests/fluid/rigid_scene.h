@@ -46,9 +46,19 @@ struct Scene {
     return ghost_layers + (kind == MarkerKind::sheets ? SheetVelocity::layers : 0);
   }
 
-  /// body_force(c, x) is the force density; velocity(b) is that of a body.
+  /// body_force(c, x) is the force density; velocity(b) is that of a body, or velocity(b, x) that of
+  /// a marker of it.
   template <typename Force, typename Velocity>
   RigidSurface::Outcome solve(Force body_force, Velocity velocity, double time = 0)
+  {
+    const auto outcome = attempt(body_force, velocity, time);
+    EXPECT_TRUE(outcome.converged) << outcome.slip;
+    return outcome;
+  }
+
+  /// The same where it may take more solves than are allowed.
+  template <typename Force, typename Velocity>
+  RigidSurface::Outcome attempt(Force body_force, Velocity velocity, double time = 0)
   {
     const Grid &grid = flow.grid();
     flow.clear_force();
@@ -60,7 +70,7 @@ struct Scene {
         return f;
       });
     for (std::size_t n = 0; n < body.size(); ++n) {
-      const Real3 u = velocity(body[n]);
+      const Real3 u = at_marker(velocity, n);
       std::copy_n(u.data(), 3, surface.target() + 3 * n);
     }
     EXPECT_LT(surface.spread(flow, time, total), 0);
@@ -69,7 +79,6 @@ struct Scene {
     flow.solve();
     const auto outcome = surface.enforce(flow);
     if (surface.settings().free_mean) flow.forcing.mean = surface.mean();
-    EXPECT_TRUE(outcome.converged) << outcome.slip;
     return outcome;
   }
 
@@ -82,6 +91,29 @@ struct Scene {
         if (body[n] == of) sum[d] += surface.force()[3 * n + d];
     reduce(MPI_SUM, sum[0], sum[1], sum[2]);
     return sum;
+  }
+
+  /// On the fluid, by one body that is not across a side of the box.
+  Real3 torque(int of, const Real3 &about)
+  {
+    Real3 sum{0, 0, 0};
+    for (std::size_t n = 0; n < body.size(); ++n)
+      for (int d = 0; d < 3; ++d) {
+        const int e = (d + 1) % 3, f = (d + 2) % 3;
+        const double *const x = &position[3 * n], *const force = surface.force() + 3 * n;
+        if (body[n] == of) sum[d] += (x[e] - about[e]) * force[f] - (x[f] - about[f]) * force[e];
+      }
+    reduce(MPI_SUM, sum[0], sum[1], sum[2]);
+    return sum;
+  }
+
+ private:
+  template <typename Velocity> Real3 at_marker(const Velocity &velocity, std::size_t n) const
+  {
+    if constexpr (std::is_invocable_v<Velocity, int, Real3>)
+      return velocity(body[n], Real3{position[3 * n], position[3 * n + 1], position[3 * n + 2]});
+    else
+      return velocity(body[n]);
   }
 };
 
