@@ -129,6 +129,52 @@ TEST_P(Crossing, FoundAsAmongAllPairs)
   EXPECT_LT(finder.counts().lists, finder.counts().steps);
 }
 
+TEST_P(Crossing, FoundWhereAllIsSheared)
+{
+  // the flow moves neighbors by more than the margin; what it leaves is little, now and then wrong
+  test::Random random(GetParam());
+  const Bodies first(GetParam());
+  Bodies still = first, now = first;
+  CrossingFinder finder;
+  finder.build(now.scene(now.size()));
+  const Eigen::Matrix3d rate = 0.02 * random.rotation() * Eigen::Vector3d(1, 0, 0) *
+                               (random.rotation() * Eigen::Vector3d(0, 1, 0)).transpose();
+  Eigen::Matrix3d flow = Eigen::Matrix3d::Identity();
+  int wrong = 0;
+  for (int step = 0; step < 24; ++step) {
+    finder.start(now.data());
+    flow += rate;
+    for (double distance = step % 4 == 3 ? 7 * MARGIN : 0.02 * MARGIN;; distance *= 0.6) {
+      Bodies left = still, next = still;
+      left.move(distance, random);
+      for (int n = 0; n < next.size(); ++n) next.x[n] = flow * left.x[n];
+      const auto found = finder.find(next.data()).crossed;
+      ASSERT_EQ(found.has_value(), touch_on_the_way(now, next)) << step;
+      wrong += found.has_value();
+      if (found) continue;
+      still = left;
+      now = next;
+      break;
+    }
+  }
+  EXPECT_GT(wrong, 0);
+}
+
+TEST_P(Crossing, ListsHoldInAFlow)
+{
+  const Bodies first(GetParam());
+  Bodies now = first;
+  CrossingFinder finder;
+  finder.build(now.scene(now.size()));
+  for (int step = 1; step <= 20; ++step) {
+    finder.start(now.data());
+    for (int n = 0; n < now.size(); ++n)
+      now.x[n] = first.x[n] + 0.01 * step * Vec3(first.x[n][2], 0, 0.5 * first.x[n][1]);
+    EXPECT_FALSE(finder.find(now.data()).crossed.has_value());
+  }
+  EXPECT_EQ(finder.counts().lists, 1) << "neighbors moved by several margins";
+}
+
 TEST_P(Crossing, FoundByOneOfSeveralRanks)
 {
   // each rank owns the points of a part of space and numbers them first

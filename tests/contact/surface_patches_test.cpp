@@ -55,4 +55,28 @@ TEST(SurfacePatches, OfNoExtentIsTheFan)
   }
 }
 
+TEST(SurfacePatches, FansSeeEachOtherBeyondThem)
+{
+  const test::Mesh mesh = test::icosphere(5);
+  const rbc::SurfaceTemplate sphere(test::waved(mesh.vertices, 3), mesh.triangles);
+  std::vector<rbc::NearTriangles::Triangle> all;
+  for (const auto &corners : sphere.triangles) all.push_back({corners, 0});
+  rbc::TriangleFans found;
+  found.find(all, sphere.vertex_count());
+  const auto places = found.places(all);
+  const int fans = found.triangles.count();
+  for (double distance : {0.3, 1.5, 10.0}) {
+    const auto patches = rbc::surface_patches(sphere, distance);
+    std::vector<char> expected(fans * fans, 0);
+    for (std::size_t t = 0; t < all.size(); ++t)
+      for (int v : all[t].corner)
+        for (std::size_t u = 0; u < all.size(); ++u)
+          if (!std::binary_search(patches[v].begin(), patches[v].end(), static_cast<int>(u)))
+            expected[places[t].fan * fans + places[u].fan] =
+                expected[places[u].fan * fans + places[t].fan] = 1;
+    EXPECT_EQ(rbc::fans_that_see(sphere, patches, places), expected);
+    EXPECT_EQ(std::count(expected.begin(), expected.end(), 1) == 0, distance > 9);
+  }
+}
+
 }    // namespace

@@ -65,9 +65,17 @@ void CellCrossings::learn_triangles()
 {
   if (build_ == surfaces_.builds()) return;
   build_ = surfaces_.builds();
-  finder_.build({surfaces_.known_triangles(), atom->nlocal + atom->nghost, atom->nlocal,
-                 MARGIN * surfaces_.longest_edge(), FURTHEST * surfaces_.allowed_displacement(),
-                 surfaces_.see_own_cells(), [this](Pair pair) { return is_tested(pair); }});
+  rbc::CrossingFinder::Scene scene = finder_.take_scene();
+  scene.triangles = surfaces_.known_triangles();
+  scene.places = surfaces_.places();
+  scene.points = atom->nlocal + atom->nghost;
+  scene.owned = atom->nlocal;
+  scene.margin = MARGIN * surfaces_.longest_edge();
+  scene.furthest = FURTHEST * surfaces_.allowed_displacement();
+  scene.own_surfaces = surfaces_.see_own_cells();
+  scene.tested = [this](Pair pair) { return is_tested(pair); };
+  scene.fans_tested = [this](Pair pair) { return surfaces_.fans_see(pair.first, pair.second); };
+  finder_.build(std::move(scene));
 }
 
 bool CellCrossings::is_tested(Pair pair) const

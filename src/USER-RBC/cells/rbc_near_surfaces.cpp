@@ -57,8 +57,9 @@ void NearSurfaces::init()
     std::vector<std::vector<int>> triangles_by_first_vertex(surface.vertex_count());
     for (std::size_t t = 0; t < surface.triangles.size(); ++t)
       triangles_by_first_vertex[surface.triangles[t][0]].push_back(static_cast<int>(t));
-    shapes.push_back({&surface, std::move(triangles_by_first_vertex), {}});
-    if (own_patch > 0) shapes.back().patches = own_patches(surface);
+    shapes.push_back({&surface, std::move(triangles_by_first_vertex), {}, {}});
+    find_fans(shapes.back());
+    if (own_patch > 0) find_own_patches(shapes.back());
 
     const auto &molecules = membranes->local_cells().molecules();
     const auto &first = membranes->local_cells().first_atoms();
@@ -71,17 +72,30 @@ void NearSurfaces::init()
     error->all(FLERR, "{} needs a fix rbc/membrane: it knows the cells and their triangles", style);
 }
 
-std::vector<std::vector<int>> NearSurfaces::own_patches(const rbc::SurfaceTemplate &surface) const
+void NearSurfaces::find_fans(Shape &shape) const
 {
-  auto patches = rbc::surface_patches(surface, own_patch);
-  const bool see_something =
-      std::any_of(patches.begin(), patches.end(), [&surface](const auto &patch) {
-        return patch.size() < surface.triangles.size();
-      });
+  std::vector<rbc::NearTriangles::Triangle> all;
+  for (const auto &corners : shape.surface->triangles) all.push_back({corners, 0});
+  rbc::TriangleFans fans;
+  fans.find(all, shape.surface->vertex_count());
+  shape.places = fans.places(all);
+  shape.fans = fans.triangles.count();
+}
+
+void NearSurfaces::find_own_patches(Shape &shape) const
+{
+  const rbc::SurfaceTemplate &surface = *shape.surface;
+  const auto patches = rbc::surface_patches(surface, own_patch);
+  bool see_something = false;
+  for (const auto &patch : patches) {
+    see_something = see_something || patch.size() < surface.triangles.size();
+    shape.hidden.emplace_back(surface.triangles.size(), false);
+    for (int t : patch) shape.hidden.back()[t] = true;
+  }
+  shape.fans_see = rbc::fans_that_see(surface, patches, shape.places);
   if (!see_something && comm->me == 0)
     error->warning(FLERR, "{} self: cells are too small to see themselves beyond {:.6g}", style,
                    own_patch);
-  return patches;
 }
 
 double NearSurfaces::longest_edge() const
@@ -170,6 +184,7 @@ void NearSurfaces::collect_triangles(double longest)
 {
   triangles.clear();
   template_triangle.clear();
+  triangle_places.clear();
   const int all = atom->nlocal + atom->nghost;
   for (int i = 0; i < all; ++i) {
     const Cell *const cell = cell_at[i];
@@ -181,6 +196,7 @@ void NearSurfaces::collect_triangles(double longest)
       const int k = image_near(i, cell->first + corners[2], longest);
       if (j >= 0 && k >= 0 && are_near(j, k, longest)) {
         triangles.push_back({{i, j, k}, atom->molecule[i]});
+        triangle_places.push_back(shape.places[t]);
         if (own_patch > 0) template_triangle.push_back(t);
       } else if (i < atom->nlocal)
         stop->report(
@@ -197,8 +213,14 @@ void NearSurfaces::collect_triangles(double longest)
 bool NearSurfaces::sees_own(int i, int triangle) const
 {
   const Cell &cell = *cell_at[i];
-  const auto &patch = shapes[cell.shape].patches[atom->tag[i] - cell.first];
-  return !std::binary_search(patch.begin(), patch.end(), template_triangle[triangle]);
+  return !shapes[cell.shape].hidden[atom->tag[i] - cell.first][template_triangle[triangle]];
+}
+
+bool NearSurfaces::fans_see(int first, int second) const
+{
+  const Shape &shape = shapes[cell_at[triangles[first].corner[0]]->shape];
+  return shape.fans_see[std::size_t(triangle_places[first].fan) * shape.fans +
+                        triangle_places[second].fan] != 0;
 }
 
 int NearSurfaces::image_near(int i, tagint id, double longest) const
@@ -248,11 +270,11 @@ double NearSurfaces::bytes() const
 {
   double patches = 0;
   for (const Shape &shape : shapes)
-    for (const auto &patch : shape.patches)
-      patches += sizeof(patch) + patch.capacity() * sizeof(int);
+    for (const auto &hidden : shape.hidden) patches += sizeof(hidden) + hidden.capacity() / 8.0;
   return static_cast<double>(finder.bytes() + built.bytes()) + patches +
          triangles.capacity() * sizeof(rbc::NearTriangles::Triangle) +
          template_triangle.capacity() * sizeof(int) +
+         triangle_places.capacity() * sizeof(rbc::TriangleFans::Place) +
          molecules.capacity() * sizeof(rbc::NearTriangles::Surface) +
          cells.size() * sizeof(decltype(cells)::value_type) +
          cell_at.capacity() * sizeof(const Cell *);

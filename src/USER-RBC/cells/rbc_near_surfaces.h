@@ -3,6 +3,7 @@
 
 #include "contact/held_positions.h"
 #include "contact/near_triangles.h"
+#include "contact/triangle_fans.h"
 #include "geometry/surface_template.h"
 #include "lmptype.h"
 #include "pointers.h"
@@ -57,6 +58,9 @@ class NearSurfaces : protected Pointers {
   /// All triangles of which this rank has all corners, each periodic image once.
   const std::vector<rbc::NearTriangles::Triangle> &known_triangles() const { return triangles; }
 
+  /// Where each of them is among the fans of its cell.
+  const std::vector<rbc::TriangleFans::Place> &places() const { return triangle_places; }
+
   /// How far an atom may have moved since build(), and a report to `stop` if one has moved further.
   /// Not collective.
   double allowed_displacement() const { return allowed; }
@@ -67,6 +71,10 @@ class NearSurfaces : protected Pointers {
   /// Whether a vertex sees a triangle of its own cell, given by its place in known_triangles().
   /// Only where vertices see their own cells.
   bool sees_own(int i, int triangle) const;
+
+  /// Whether a vertex of a fan of a cell sees a triangle of another fan of that cell, or the other
+  /// way around. Fans are given by a triangle of each. Only where vertices see their own cells.
+  bool fans_see(int first, int second) const;
 
   bool is_vertex(int i) const { return cell_of(i) != nullptr; }
 
@@ -91,8 +99,11 @@ class NearSurfaces : protected Pointers {
     const rbc::SurfaceTemplate *surface;
     std::vector<std::vector<int>>
         triangles_by_first_vertex;    ///< triangles of which a vertex is the first corner
-    std::vector<std::vector<int>>
-        patches;    ///< triangles that a vertex does not see, if it sees its own cell
+    std::vector<std::vector<bool>>
+        hidden;    ///< whether a vertex does not see a triangle, if it sees its own cell
+    std::vector<rbc::TriangleFans::Place> places;    ///< of the triangles
+    int fans = 0;
+    std::vector<char> fans_see{};    ///< each other, if vertices see their own cell
   };
 
   std::string style;
@@ -103,6 +114,7 @@ class NearSurfaces : protected Pointers {
   rbc::NearTriangles finder;
   std::vector<rbc::NearTriangles::Triangle> triangles;
   std::vector<int> template_triangle;    ///< of each, if vertices see their own cells
+  std::vector<rbc::TriangleFans::Place> triangle_places;
   std::vector<rbc::NearTriangles::Surface> molecules;    ///< of vertices; other atoms see nothing
   rbc::HeldPositions built;                              ///< positions at build()
   double own_patch = 0;                                  ///< 0: vertices do not see their own cells
@@ -112,7 +124,8 @@ class NearSurfaces : protected Pointers {
   const Cell *cell_of(int i) const;
   double longest_known_edge(double range, double slack) const;
   void collect_triangles(double longest);
-  std::vector<std::vector<int>> own_patches(const rbc::SurfaceTemplate &surface) const;
+  void find_fans(Shape &shape) const;
+  void find_own_patches(Shape &shape) const;
   int image_near(int i, tagint id, double longest) const;
   bool are_near(int i, int j, double longest) const;
 };

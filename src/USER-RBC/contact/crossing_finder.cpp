@@ -18,6 +18,17 @@ constexpr double TOUCHING = 1e-5;    // of the size of fans: distance of triangl
 
 constexpr double WIDER = 1.25;
 
+// After a build the reach is this much larger than what was needed before it, so that one list
+// holds until the next. At least this part of the margin.
+
+constexpr double LONGER = 1.3, LEAST = 0.1;
+
+// Two triangles of fans that were listed are not, if they are this much further apart than the
+// reach: since the list was made, and until the next, they come nearer by less than the reach, in
+// coordinates in which distances are no less than 2/3 of what they are.
+
+constexpr double SPLIT = 3;
+
 // Part of the reach: no better line is looked for where two fans are that far apart.
 
 constexpr double WIDE = 0.25;
@@ -30,24 +41,22 @@ PlainVector at(const double *x, int n)
 }
 
 /// Where points are along a line.
-struct Span {
-  double lowest = std::numeric_limits<double>::max(), highest = -lowest;
-
-  template <typename Points> Span(const double *x, const Points &points, PlainVector line)
-  {
-    for (int n : points) {
-      const double along = dot(line, at(x, n));
-      lowest = std::min(lowest, along);
-      highest = std::max(highest, along);
-    }
+template <typename Points> Bounds span(const double *x, const Points &points, PlainVector line)
+{
+  Bounds bounds{std::numeric_limits<double>::max(), -std::numeric_limits<double>::max()};
+  for (int n : points) {
+    const double along = dot(line, at(x, n));
+    bounds.lowest = std::min(bounds.lowest, along);
+    bounds.highest = std::max(bounds.highest, along);
   }
-};
+  return bounds;
+}
 
 /// How far the one is beyond the other along a line, negative if it is not.
 template <typename Points>
 double gap(const double *x, const Points &above, const Points &below, PlainVector line)
 {
-  return Span(x, above, line).lowest - Span(x, below, line).highest;
+  return span(x, above, line).lowest - span(x, below, line).highest;
 }
 
 PlainVector unit(PlainVector v)
@@ -77,6 +86,16 @@ bool share_corner(const CrossingFinder::Triangle &first, const CrossingFinder::T
 
 }    // namespace
 
+CrossingFinder::Sphere CrossingFinder::sphere_around(const double *x, const Triangle &triangle)
+{
+  const auto [a, b, c] = places(x, triangle);
+  const PlainVector centre = (1.0 / 3) * (a + b + c);
+  double square = 0;
+  for (const PlainVector &corner : {a, b, c})
+    square = std::max(square, dot(corner - centre, corner - centre));
+  return {centre, std::sqrt(square), -1};
+}
+
 CrossingFinder::Corners CrossingFinder::corners(int body, bool fan) const
 {
   if (!fan) {
@@ -96,8 +115,10 @@ bool CrossingFinder::is_owned(int triangle) const
 void CrossingFinder::build(Scene scene)
 {
   scene_ = std::move(scene);
+  first_reach_ = scene_.margin;
+  if (current_) first_reach_ *= std::clamp(LONGER * needed_ / scene_.margin, LEAST, 1.0);
   current_ = false;
-  near_.build(scene_.triangles, scene_.points, scene_.owned, scene_.own_surfaces);
+  near_.build(scene_.triangles, scene_.places, scene_.points, scene_.owned, scene_.own_surfaces);
 }
 
 /* ----------------------------------------------------------------------
@@ -119,17 +140,17 @@ CrossingFinder::Outcome CrossingFinder::find(const double *x)
 {
   ++counts_.steps;
   end_.assign(x, x + 3 * std::size_t(scene_.points));
-  if (!current_) list(start_.data(), scene_.margin);
-  double needed = needed_reach(x);
-  if (needed >= reach_) {
+  if (!current_) list(start_.data(), first_reach_);
+  find_needed_reach(x);
+  if (needed_ >= reach_) {
     list(start_.data(), scene_.margin);
-    needed = needed_reach(x);
+    find_needed_reach(x);
   }
-  while (needed >= reach_) {
+  while (needed_ >= reach_) {
     current_ = false;
-    if (!(needed < scene_.furthest)) return {false, {}};
-    list(start_.data(), WIDER * needed);
-    needed = needed_reach(x);
+    if (!(needed_ < scene_.furthest)) return {false, {}};
+    list(start_.data(), WIDER * needed_);
+    find_needed_reach(x);
   }
   std::optional<Pair> found;
   for (std::size_t n = 0; n < listed_.size(); ++n) {
@@ -142,7 +163,7 @@ CrossingFinder::Outcome CrossingFinder::find(const double *x)
     listed_[n--] = listed_.back();
     listed_.pop_back();
     const std::size_t before = listed_.size();
-    split(start_.data(), fans, 2 * reach_);
+    split(start_.data(), fans, SPLIT * reach_);
     for (std::size_t m = before; m < listed_.size(); ++m) listed_[m].gap = UNKNOWN;
   }
   return {true, found};
@@ -151,25 +172,24 @@ CrossingFinder::Outcome CrossingFinder::find(const double *x)
 bool CrossingFinder::stay_apart(const Listed &listed, const double *x)
 {
   if (!listed.apart) return false;
-  if (motion_.around(listed.fan) < listed.gap) return true;
-  if (listed.fans && motion_.along(listed.pair.first, listed.line).lowest -
-                             motion_.along(listed.pair.second, listed.line).highest >
-                         -listed.gap)
+  if (motion_.along(listed.in_fans.first, listed.line).lowest -
+          motion_.along(listed.in_fans.second, listed.line).highest >
+      -listed.gap)
     return true;
   return gap(x, corners(listed.pair.first, listed.fans), corners(listed.pair.second, listed.fans),
              listed.line) > 0;
 }
 
 /* ----------------------------------------------------------------------
-   Returns the reach of a list that holds until corners are at `x`. A pair that is not listed was
-   apart by more than the reach; by more than twice that if its fans were no neighbors; by more than
-   four times that and two radii if they were not even neighbors of neighbors.
+   The reach of a list that holds until corners are at `x`. A pair that is not listed was apart by
+   more than the reach; by more than twice that if its fans were no neighbors; by more than four
+   times that and two radii if they were not even neighbors of neighbors.
 ------------------------------------------------------------------------- */
 
-double CrossingFinder::needed_reach(const double *x)
+void CrossingFinder::find_needed_reach(const double *x)
 {
   const NeighborMotion::Differences moved = motion_.differences(x);
-  return std::max({moved.near, moved.wider / 2, (moved.all - 2 * radius_) / 4});
+  needed_ = std::max({moved.near, moved.wider / 2, (moved.all - 2 * radius_) / 4});
 }
 
 /* ----------------------------------------------------------------------
@@ -224,9 +244,10 @@ void CrossingFinder::list(const double *x, double reach)
   ++counts_.lists;
   reach_ = reach;
   listed_.clear();
-  near_.bound(x, reach_);
+  held_.take(x, near_.groups().number);
+  near_.bound(held_, reach_);
   radius_ = near_.largest_radius();
-  motion_.hold(x, near_.fans().corners, near_.centres(), 2 * (radius_ + reach_));
+  motion_.hold(held_, near_.groups(), near_.centres(), 2 * (radius_ + reach_));
   find_normals(x);
   near_.visit_pairs([&](int first, int second) { consider_fans(x, {first, second}); });
   current_ = true;
@@ -250,20 +271,22 @@ void CrossingFinder::find_normals(const double *x)
 
 void CrossingFinder::consider_fans(const double *x, Pair fans)
 {
+  const Surface surfaces[2] = {near_.surface(fans.first), near_.surface(fans.second)};
+  if (!is_here(near_.is_owned(fans.first), near_.is_owned(fans.second), surfaces[0], surfaces[1]))
+    return;
   const NumberLists &all = near_.fans().triangles;
   const Pair triangles{all.number[all.begin[fans.first]], all.number[all.begin[fans.second]]};
-  if (!is_here(near_.is_owned(fans.first), near_.is_owned(fans.second), triangles)) return;
-  Listed listed{fans, fans.first, true, true, 0, {}};
+  const bool own = surfaces[0] == surfaces[1];
+  if (own && scene_.fans_tested && !scene_.fans_tested(triangles)) return;
+  Listed listed{fans, fans, true, true, 0, {}};
   const PlainVector lines[3] = {
       normal_[fans.first], normal_[fans.second],
       unit(at(near_.centres().data(), fans.first) - at(near_.centres().data(), fans.second))};
   for (const PlainVector &line : lines) {
-    try_line(listed, x, line);
+    keep_line(listed, line, along(fans.first, line), along(fans.second, line));
     if (listed.gap > reach_) return;
     if (listed.gap > WIDE * reach_) break;
   }
-  const bool own =
-      scene_.triangles[triangles.first].surface == scene_.triangles[triangles.second].surface;
   if (!own && !scene_.tested(triangles)) return;
   if (listed.gap > 0)
     listed_.push_back(listed);
@@ -275,14 +298,30 @@ void CrossingFinder::consider_fans(const double *x, Pair fans)
    keeps a line along which the two are further apart
 ------------------------------------------------------------------------- */
 
-void CrossingFinder::try_line(Listed &listed, const double *x, PlainVector line) const
+void CrossingFinder::keep_line(Listed &listed, PlainVector line, Bounds first, Bounds second)
 {
-  const Span first(x, corners(listed.pair.first, listed.fans), line),
-      second(x, corners(listed.pair.second, listed.fans), line);
   const double beyond = first.lowest - second.highest, back = second.lowest - first.highest;
   if (std::max(beyond, back) <= listed.gap) return;
   listed.gap = std::max(beyond, back);
   listed.line = beyond > back ? line : -1 * line;
+}
+
+void CrossingFinder::try_line(Listed &listed, const double *x, PlainVector line) const
+{
+  keep_line(listed, line, span(x, corners(listed.pair.first, false), line),
+            span(x, corners(listed.pair.second, false), line));
+}
+
+/* ----------------------------------------------------------------------
+   where the corners of a fan were when pairs were listed
+------------------------------------------------------------------------- */
+
+Bounds CrossingFinder::along(int fan, PlainVector line) const
+{
+  const NumberLists &all = near_.groups();
+  return bounds(all.begin[fan], all.begin[fan + 1], [&](int n) {
+    return line.x * held_.x[n] + line.y * held_.y[n] + line.z * held_.z[n];
+  });
 }
 
 /* ----------------------------------------------------------------------
@@ -292,22 +331,41 @@ void CrossingFinder::try_line(Listed &listed, const double *x, PlainVector line)
 void CrossingFinder::split(const double *x, Pair fans, double reach)
 {
   const NumberLists &all = near_.fans().triangles;
-  for (int n = all.begin[fans.first]; n < all.begin[fans.first + 1]; ++n)
-    for (int m = all.begin[fans.second]; m < all.begin[fans.second + 1]; ++m)
-      consider(x, {all.number[n], all.number[m]}, fans.first, reach);
+  find_spheres(x, fans.second);
+  for (int n = all.begin[fans.first]; n < all.begin[fans.first + 1]; ++n) {
+    const int triangle = all.number[n];
+    const Sphere own = sphere_around(x, scene_.triangles[triangle]);
+    for (const Sphere &sphere : spheres_) {
+      const PlainVector apart = own.centre - sphere.centre;
+      const double far = reach + own.radius + sphere.radius;
+      if (dot(apart, apart) <= far * far) consider(x, {triangle, sphere.triangle}, fans, reach);
+    }
+  }
 }
 
-void CrossingFinder::consider(const double *x, Pair pair, int fan, double reach)
+void CrossingFinder::find_spheres(const double *x, int fan)
+{
+  const NumberLists &all = near_.fans().triangles;
+  spheres_.clear();
+  for (int n = all.begin[fan]; n < all.begin[fan + 1]; ++n) {
+    spheres_.push_back(sphere_around(x, scene_.triangles[all.number[n]]));
+    spheres_.back().triangle = all.number[n];
+  }
+}
+
+void CrossingFinder::consider(const double *x, Pair pair, Pair fans, double reach)
 {
   const Triangle &first = scene_.triangles[pair.first], &second = scene_.triangles[pair.second];
-  if (!is_here(is_owned(pair.first), is_owned(pair.second), pair)) return;
+  if (!is_here(is_owned(pair.first), is_owned(pair.second), first.surface, second.surface)) return;
   if (first.surface == second.surface && (share_corner(first, second) || !scene_.tested(pair)))
     return;
-  Listed listed{pair, fan, false, false, UNKNOWN, {}};
-  try_line(listed, x, unit(twice_area(x, first)));
-  if (listed.gap > reach) return;
-  try_line(listed, x, unit(twice_area(x, second)));
-  if (listed.gap > reach) return;
+  Listed listed{pair, fans, false, false, UNKNOWN, {}};
+  const PlainVector between = sphere_around(x, first).centre - sphere_around(x, second).centre;
+  for (const PlainVector &line : {between, twice_area(x, first), twice_area(x, second)}) {
+    try_line(listed, x, unit(line));
+    if (listed.gap > reach) return;
+    if (listed.gap > WIDE * reach) break;
+  }
   if (listed.gap <= 0) try_line(listed, x, unit(line_between(places(x, first), places(x, second))));
   if (listed.gap > reach) return;
   listed.apart = listed.gap > 0;
@@ -318,20 +376,20 @@ void CrossingFinder::consider(const double *x, Pair pair, int fan, double reach)
    Two ranks see a pair of which each owns a side. Of different surfaces the lower number has it.
 ------------------------------------------------------------------------- */
 
-bool CrossingFinder::is_here(bool first_owned, bool second_owned, Pair triangles) const
+bool CrossingFinder::is_here(bool first_owned, bool second_owned, Surface first, Surface second)
 {
   if (!first_owned && !second_owned) return false;
   if (first_owned && second_owned) return true;
-  const Surface first = scene_.triangles[triangles.first].surface,
-                second = scene_.triangles[triangles.second].surface;
   return first == second || (first < second) == first_owned;
 }
 
 std::size_t CrossingFinder::bytes() const
 {
   return (start_.capacity() + end_.capacity()) * sizeof(double) + near_.bytes() + motion_.bytes() +
-         normal_.capacity() * sizeof(PlainVector) + listed_.capacity() * sizeof(Listed) +
-         scene_.triangles.capacity() * sizeof(Triangle);
+         held_.bytes() + normal_.capacity() * sizeof(PlainVector) +
+         spheres_.capacity() * sizeof(Sphere) + listed_.capacity() * sizeof(Listed) +
+         scene_.triangles.capacity() * sizeof(Triangle) +
+         scene_.places.capacity() * sizeof(TriangleFans::Place);
 }
 
 }    // namespace rbc

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace rbc {
@@ -35,17 +36,27 @@ class CrossingFinder {
     double furthest = 0;          ///< the largest distance within which pairs need ever be listed
     bool own_surfaces = false;    ///< surfaces cross themselves, too
     std::function<bool(Pair)> tested;    ///< whether a pair is, the same for all of two surfaces
+
+    // What is known before, if it is: the place of each triangle among the fans of its surface, and
+    // whether any triangles of two fans of one surface are tested, each fan given by one of its
+    // triangles.
+    std::vector<TriangleFans::Place> places{};
+    std::function<bool(Pair)> fans_tested{};
   };
 
   /// All begins anew with a scene, or with another answer of `tested`.
   void build(Scene scene);
+
+  /// That of the last build, to be filled anew in the memory that it has. build() must follow.
+  Scene take_scene() { return std::move(scene_); }
 
   /// The positions from which a step leads on. It may be tried several times.
   void start(const double *x);
 
   /// Two triangles that touched on the way to `x`, if there are any. `known` is false, and none are
   /// given, where points move by more than Scene::furthest relative to their neighbors. That is the
-  /// diagonal of the box of all their relative displacements, up to sqrt(3) times the largest.
+  /// diagonal of the box of all their relative displacements, up to sqrt(3) times the largest, as
+  /// NeighborMotion measures it.
   struct Outcome {
     bool known;
     std::optional<Pair> crossed;
@@ -67,11 +78,18 @@ class CrossingFinder {
   /// Two fans or two triangles, and a line along which the first is beyond the second.
   struct Listed {
     Pair pair;
-    int fan;    ///< that is the first, or has it
+    Pair in_fans;    ///< that are or have them
     bool fans;
     bool apart;          ///< along the line at the start of the step
     double gap;          ///< along it when listed
     PlainVector line;    ///< of unit length
+  };
+
+  /// Around a triangle.
+  struct Sphere {
+    PlainVector centre;
+    double radius;
+    int triangle;
   };
 
   /// The corners of a fan or a triangle.
@@ -86,25 +104,33 @@ class CrossingFinder {
 
   bool current_ = false;    ///< what is listed holds at the start of the step
   std::vector<double> start_, end_;
-  double reach_ = 0;     ///< distance within which pairs are listed
-  double radius_ = 0;    ///< of the largest fan when listed
+  double reach_ = 0;          ///< distance within which pairs are listed
+  double needed_ = 0;         ///< for the last step that was tested
+  double first_reach_ = 0;    ///< after a build
+  double radius_ = 0;         ///< of the largest fan when listed
+  PointArrays held_;          ///< where the corners of all fans were when listed
   NeighborMotion motion_;
   std::vector<Listed> listed_;
 
+  std::vector<Sphere> spheres_;        ///< of a fan
   std::vector<PlainVector> normal_;    ///< of each fan near owned ones
   Counts counts_;
 
   void list(const double *x, double reach);
-  double needed_reach(const double *x);
+  void find_needed_reach(const double *x);
   void find_normals(const double *x);
   void consider_fans(const double *x, Pair fans);
+  static Sphere sphere_around(const double *x, const Triangle &triangle);
+  void find_spheres(const double *x, int fan);
   void split(const double *x, Pair fans, double reach);
-  void consider(const double *x, Pair pair, int fan, double reach);
+  void consider(const double *x, Pair pair, Pair fans, double reach);
+  static void keep_line(Listed &listed, PlainVector line, Bounds first, Bounds second);
+  Bounds along(int fan, PlainVector line) const;
   void try_line(Listed &listed, const double *x, PlainVector line) const;
   bool stay_apart(const Listed &listed, const double *x);
   bool triangles_touched(Listed &listed, const double *x);
   Corners corners(int body, bool fan) const;
-  bool is_here(bool first_owned, bool second_owned, Pair triangles) const;
+  static bool is_here(bool first_owned, bool second_owned, Surface first, Surface second);
   bool is_owned(int triangle) const;
 };
 

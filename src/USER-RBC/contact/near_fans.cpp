@@ -18,17 +18,29 @@ PlainVector at(const double *x, int n)
 
 void NearFans::Spheres::resize(std::size_t size)
 {
-  for (auto *numbers : {&x, &y, &z, &radius}) numbers->resize(size + LANES);
-  for (auto *numbers : {&surface, &owned}) numbers->resize(size + LANES);
+  for (auto *numbers : {&x, &y, &z, &radius}) numbers->resize(size + AT_ONCE);
+  for (auto *numbers : {&surface, &owned}) numbers->resize(size + AT_ONCE);
   fan.resize(size);
 }
 
-void NearFans::build(const std::vector<NearTriangles::Triangle> &triangles, int points, int owned,
+void NearFans::build(const std::vector<NearTriangles::Triangle> &triangles,
+                     const std::vector<TriangleFans::Place> &places, int points, int owned,
                      bool own_surfaces)
 {
   own_surfaces_ = own_surfaces;
-  fans_.find(triangles, points);
+  if (places.size() == triangles.size())
+    fans_.join(triangles, places, points);
+  else
+    fans_.find(triangles, points);
   const int count = fans_.corners.count();
+  groups_.number.clear();
+  groups_.begin.assign(1, 0);
+  for (int fan = 0; fan < count; ++fan) {
+    const int begin = fans_.corners.begin[fan], end = fans_.corners.begin[fan + 1];
+    for (int n = begin; n < end; ++n) groups_.number.push_back(fans_.corners.number[n]);
+    while (groups_.number.size() % GROUP) groups_.number.push_back(fans_.corners.number[begin]);
+    groups_.begin.push_back(static_cast<int>(groups_.number.size()));
+  }
   owned_.assign(count, 0);
   surface_.resize(count);
   for (int fan = 0; fan < count; ++fan) {
@@ -38,24 +50,25 @@ void NearFans::build(const std::vector<NearTriangles::Triangle> &triangles, int 
   }
 }
 
-void NearFans::bound(const double *x, double reach)
+void NearFans::bound(const PointArrays &corners, double reach)
 {
   reach_ = reach;
-  const NumberLists &corners = fans_.corners;
-  centre_.resize(3 * std::size_t(corners.count()));
-  radius_.resize(corners.count());
+  const NumberLists &lists = groups_;
+  centre_.resize(3 * std::size_t(lists.count()));
+  radius_.resize(lists.count());
   largest_radius_ = 0;
-  for (int fan = 0; fan < corners.count(); ++fan) {
-    const int begin = corners.begin[fan], end = corners.begin[fan + 1];
+  for (int fan = 0; fan < lists.count(); ++fan) {
+    const int begin = lists.begin[fan], end = lists.begin[fan + 1];
     PlainVector sum{0, 0, 0};
-    for (int n = begin; n < end; ++n) sum = sum + at(x, corners.number[n]);
-    const PlainVector centre = (1.0 / (end - begin)) * sum;
-    double radius2 = 0;
-    for (int n = begin; n < end; ++n) {
-      const PlainVector apart = at(x, corners.number[n]) - centre;
-      radius2 = std::max(radius2, dot(apart, apart));
-    }
-    radius_[fan] = std::sqrt(radius2);
+    const int count = fans_.corners.begin[fan + 1] - fans_.corners.begin[fan];
+    for (int n = begin; n < begin + count; ++n) sum = sum + corners[n];
+    const PlainVector centre = (1.0 / count) * sum;
+    const Bounds square = bounds(begin, end, [&](int n) {
+      const double dx = corners.x[n] - centre.x, dy = corners.y[n] - centre.y,
+                   dz = corners.z[n] - centre.z;
+      return dx * dx + dy * dy + dz * dz;
+    });
+    radius_[fan] = std::sqrt(square.highest);
     largest_radius_ = std::max(largest_radius_, radius_[fan]);
     centre_[3 * std::size_t(fan)] = centre.x;
     centre_[3 * std::size_t(fan) + 1] = centre.y;
@@ -116,7 +129,7 @@ std::size_t NearFans::bytes() const
   std::size_t integers = 0;
   for (const auto *numbers : {&near_owned_, &bin_of_, &bin_begin_, &next_})
     integers += numbers->capacity();
-  return fans_.bytes() + integers * sizeof(int) + owned_.capacity() +
+  return fans_.bytes() + groups_.bytes() + integers * sizeof(int) + owned_.capacity() +
          surface_.capacity() * sizeof(Surface) +
          (centre_.capacity() + radius_.capacity()) * sizeof(double) +
          spheres_.x.capacity() * (4 * sizeof(double) + 2 * sizeof(Surface) + sizeof(int));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "contact/near_triangles.h"
+#include "contact/point_arrays.h"
 #include "contact/triangle_fans.h"
 #include "geometry/spatial_bins.h"
 #include "geometry/vector_loop.h"
@@ -18,16 +19,23 @@ class NearFans {
   using Surface = NearTriangles::Surface;
 
   /// A pair is found if one of its fans has one of the `owned` first points. Two fans of one
-  /// surface are a pair only with `own_surfaces`.
-  void build(const std::vector<NearTriangles::Triangle> &triangles, int points, int owned,
+  /// surface are a pair only with `own_surfaces`. Without the `places` of triangles in fans these
+  /// are found anew.
+  void build(const std::vector<NearTriangles::Triangle> &triangles,
+             const std::vector<TriangleFans::Place> &places, int points, int owned,
              bool own_surfaces);
 
   const TriangleFans &fans() const { return fans_; }
+
+  /// The corners of each fan, some of them again, so that they are whole groups of GROUP.
+  const NumberLists &groups() const { return groups_; }
+
   bool is_owned(int fan) const { return owned_[fan] != 0; }
   Surface surface(int fan) const { return surface_[fan]; }
 
-  /// Spheres at `x`, three numbers for each point, for pairs nearer than `reach`.
-  void bound(const double *x, double reach);
+  /// Spheres around the corners of all fans, in the order of groups(), for pairs nearer than
+  /// `reach`.
+  void bound(const PointArrays &corners, double reach);
   double largest_radius() const { return largest_radius_; }
   const std::vector<double> &centres() const { return centre_; }    ///< three numbers for each fan
 
@@ -40,20 +48,20 @@ class NearFans {
     const SpatialBins bins(centre_.data(), fans_.corners.count(), reach_ + 2 * largest_radius_);
     sort(bins);
     for (int sphere = 0; sphere < static_cast<int>(near_owned_.size()); ++sphere) {
+      const PlainVector centre{spheres_.x[sphere], spheres_.y[sphere], spheres_.z[sphere]};
       bool own_row = true;
-      bins.visit_half(bins.along(0, spheres_.x[sphere]), bins.along(1, spheres_.y[sphere]),
-                      bins.along(2, spheres_.z[sphere]), [&](int first, int last) {
-                        const int begin =
-                            std::exchange(own_row, false) ? sphere + 1 : bin_begin_[first];
-                        visit_row(sphere, begin, bin_begin_[last + 1], f);
-                      });
+      bins.visit_half_within(
+          centre, reach_ + spheres_.radius[sphere] + largest_radius_, [&](int first, int last) {
+            const int begin = std::exchange(own_row, false) ? sphere + 1 : bin_begin_[first];
+            visit_row(sphere, begin, bin_begin_[last + 1], f);
+          });
     }
   }
 
   std::size_t bytes() const;
 
  private:
-  static constexpr int LANES = 8;    ///< loops run on into what is no sphere any more
+  static constexpr int AT_ONCE = 8;    ///< loops run on into what is no sphere any more
 
   /// Of fans near owned ones, in the order of their bins.
   struct Spheres {
@@ -65,6 +73,7 @@ class NearFans {
   };
 
   TriangleFans fans_;
+  NumberLists groups_;
   bool own_surfaces_ = false;
   std::vector<char> owned_;    ///< of each fan, whether a corner is
   std::vector<Surface> surface_;
@@ -92,13 +101,18 @@ class NearFans {
       const double *const x = &all.x[from], *const y = &all.y[from], *const z = &all.z[from],
                           *const radius = &all.radius[from];
       const Surface *const surface = &all.surface[from], *const here = &all.owned[from];
-      for_each((count + LANES - 1) / LANES * LANES, [&](int n) {
+      for_each((count + AT_ONCE - 1) / AT_ONCE * AT_ONCE, [&](int n) {
         const double dx = x[n] - px, dy = y[n] - py, dz = z[n] - pz, reached = far + radius[n];
         hit[n] = (dx * dx + dy * dy + dz * dz <= reached * reached) & (surface[n] != unseen) &
                  ((owned | here[n]) != 0);
       });
-      for (int n = 0; n < count; ++n)
-        if (hit[n]) f(all.fan[sphere], all.fan[from + n]);
+      for (int group = 0; group < count; group += AT_ONCE) {
+        std::int64_t any = 0;
+        for (int n = 0; n < AT_ONCE; ++n) any |= hit[group + n];
+        if (!any) continue;
+        for (int n = group; n < std::min(group + AT_ONCE, count); ++n)
+          if (hit[n]) f(all.fan[sphere], all.fan[from + n]);
+      }
     }
   }
 };

@@ -11,6 +11,11 @@ namespace {
 constexpr double NEVER = std::numeric_limits<double>::max();
 constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
+PlainVector at(const std::vector<double> &x, int n)
+{
+  return {x[3 * std::size_t(n)], x[3 * std::size_t(n) + 1], x[3 * std::size_t(n) + 2]};
+}
+
 }    // namespace
 
 NeighborMotion::Extent NeighborMotion::Extent::of_nothing()
@@ -34,82 +39,114 @@ double NeighborMotion::Extent::width() const
   return std::sqrt(sum);
 }
 
-void NeighborMotion::hold(const double *x, const NumberLists &bodies,
+void NeighborMotion::hold(const PointArrays &positions, const NumberLists &bodies,
                           const std::vector<double> &centres, double near)
 {
+  held_ = &positions;
   bodies_ = &bodies;
-  held_.resize(3 * bodies.number.size());
-  for (std::size_t n = 0; n < bodies.number.size(); ++n)
-    for (int d = 0; d < 3; ++d) held_[3 * n + d] = x[3 * std::size_t(bodies.number[n]) + d];
   bins_.emplace(centres.data(), bodies.count(), near);
   bin_.resize(bodies.count());
-  for (std::size_t b = 0; b < bin_.size(); ++b)
-    bin_[b] = bins_->of({centres[3 * b], centres[3 * b + 1], centres[3 * b + 2]});
-  around_.assign(bins_->count(), 0);
-}
-
-NeighborMotion::Differences NeighborMotion::differences(const double *x)
-{
-  if (!find_extents(x)) return {INFINITE, INFINITE, INFINITE};
-  Differences differences{find_around(), 0, 0};
-  Extent all = Extent::of_nothing();
-  for (const Extent &extent : extents_) all.add(extent);
-  differences.all = all.width();
-  const int count[3] = {bins_->count(0), bins_->count(1), bins_->count(2)};
-  merge_neighbors(count, extents_, merged_);
-  merge_neighbors(count, extents_, merged_);
-  for (const Extent &extent : extents_)
-    differences.wider = std::max(differences.wider, extent.width());
-  return differences;
+  for (int b = 0; b < bodies.count(); ++b) bin_[b] = bins_->of(at(centres, b));
+  strain_ = 0;
+  widths_ = {0, 0, 0};
+  if (bodies.count() == 0) return;
+  PlainVector sum{0, 0, 0};
+  for (int b = 0; b < bodies.count(); ++b) sum = sum + positions[bodies.begin[b]];
+  flow_.reset((1.0 / bodies.count()) * sum);
+  for (int b = 0; b < bodies.count(); ++b) flow_.place(positions[bodies.begin[b]]);
 }
 
 /* ----------------------------------------------------------------------
-   returns whether all displacements are numbers
+   In coordinates y with x = (1 + A) y, where A is the flow, bodies are where they were held but for
+   what A leaves of their displacements, times the inverse of 1 + A. On the way from the positions
+   before, both A and what it leaves are between those there and those now.
 ------------------------------------------------------------------------- */
 
-bool NeighborMotion::find_extents(const double *x)
+NeighborMotion::Differences NeighborMotion::differences(const double *x)
+{
+  if (!find_displacements(x)) return {INFINITE, INFINITE, INFINITE};
+  fit_flow();
+  find_extents();
+  strain_ = std::max(strain_, flow_.norm());
+  widths_.near = std::max(widths_.near, width_of_neighbors());
+  Extent all = Extent::of_nothing();
+  for (const Extent &extent : extents_) all.add(extent);
+  widths_.all = std::max(widths_.all, all.width());
+  const int count[3] = {bins_->count(0), bins_->count(1), bins_->count(2)};
+  merge_neighbors(count, extents_, merged_);
+  merge_neighbors(count, extents_, merged_);
+  for (const Extent &extent : extents_) widths_.wider = std::max(widths_.wider, extent.width());
+  const double stretched = 1 / (1 - strain_);
+  return {stretched * widths_.near, stretched * widths_.wider, stretched * widths_.all};
+}
+
+/* ----------------------------------------------------------------------
+   returns whether all are numbers
+------------------------------------------------------------------------- */
+
+bool NeighborMotion::find_displacements(const double *x)
+{
+  moved_.take(x, bodies_->number);
+  const double size = sum(static_cast<int>(moved_.x.size()), [this](int n) {
+    moved_.x[n] -= held_->x[n];
+    moved_.y[n] -= held_->y[n];
+    moved_.z[n] -= held_->z[n];
+    return std::abs(moved_.x[n]) + std::abs(moved_.y[n]) + std::abs(moved_.z[n]);
+  });
+  return size < NEVER;
+}
+
+void NeighborMotion::fit_flow()
+{
+  flow_.begin();
+  for (int b = 0; b < bodies_->count(); ++b)
+    flow_.add((*held_)[bodies_->begin[b]], moved_[bodies_->begin[b]]);
+  flow_.fit();
+}
+
+void NeighborMotion::find_extents()
 {
   extents_.assign(bins_->count(), Extent::of_nothing());
   body_extents_.resize(bodies_->count());
-  bool numbers = true;
+  const PointArrays &held = *held_;
+  const LinearFlow flow = flow_;
   for (int b = 0; b < bodies_->count(); ++b) {
-    Extent extent = Extent::of_nothing();
-    for (int n = bodies_->begin[b]; n < bodies_->begin[b + 1]; ++n)
-      for (int d = 0; d < 3; ++d) {
-        const double moved =
-            x[3 * std::size_t(bodies_->number[n]) + d] - held_[3 * std::size_t(n) + d];
-        numbers &= std::abs(moved) < NEVER;
-        extent.lo[d] = std::min(extent.lo[d], moved);
-        extent.hi[d] = std::max(extent.hi[d], moved);
-      }
-    body_extents_[b] = extent;
-    extents_[bin_[b]].add(extent);
+    const int begin = bodies_->begin[b], end = bodies_->begin[b + 1];
+    Extent left;
+    for (int d = 0; d < 3; ++d) {
+      const double *const moved = (d == 0 ? moved_.x : d == 1 ? moved_.y : moved_.z).data();
+      const Bounds all = bounds(begin, end, [&](int n) { return moved[n]; });
+      const PlainVector row = flow.row(d);
+      const Bounds rest = bounds(begin, end, [&](int n) {
+        return moved[n] - (row.x * held.x[n] + row.y * held.y[n] + row.z * held.z[n]);
+      });
+      body_extents_[b].lo[d] = all.lowest;
+      body_extents_[b].hi[d] = all.highest;
+      left.lo[d] = rest.lowest;
+      left.hi[d] = rest.highest;
+    }
+    extents_[bin_[b]].add(left);
   }
-  return numbers;
 }
 
 /* ----------------------------------------------------------------------
    each bin with each of its neighbors: closer than all of them together
 ------------------------------------------------------------------------- */
 
-double NeighborMotion::find_around()
+double NeighborMotion::width_of_neighbors() const
 {
-  std::fill(around_.begin(), around_.end(), 0.0);
   double largest = 0;
   for (int k = 0; k < bins_->count(2); ++k)
     for (int j = 0; j < bins_->count(1); ++j)
       for (int i = 0; i < bins_->count(0); ++i) {
-        const int b = bins_->index(i, j, k);
-        if (extents_[b].empty()) continue;
+        const Extent &own = extents_[bins_->index(i, j, k)];
+        if (own.empty()) continue;
         bins_->visit_half(i, j, k, [&](int first, int last) {
           for (int other = first; other <= last; ++other) {
             if (extents_[other].empty()) continue;
-            Extent both = extents_[b];
+            Extent both = own;
             both.add(extents_[other]);
-            const double width = both.width();
-            around_[b] = std::max(around_[b], width);
-            around_[other] = std::max(around_[other], width);
-            largest = std::max(largest, width);
+            largest = std::max(largest, both.width());
           }
         });
       }
@@ -118,7 +155,7 @@ double NeighborMotion::find_around()
 
 std::size_t NeighborMotion::bytes() const
 {
-  return (held_.capacity() + around_.capacity()) * sizeof(double) + bin_.capacity() * sizeof(int) +
+  return moved_.bytes() + bin_.capacity() * sizeof(int) +
          (body_extents_.capacity() + extents_.capacity() + merged_.capacity()) * sizeof(Extent);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "contact/linear_flow.h"
 #include "contact/number_lists.h"
+#include "contact/point_arrays.h"
 #include "geometry/spatial_bins.h"
 
 #include <algorithm>
@@ -10,17 +12,21 @@
 namespace rbc {
 
 /// How much bodies of a few points each have come nearer to each other. As RelativeMotion, but
-/// closer: for bodies instead of points, and for pairs of neighboring bins instead of blocks.
+/// closer: for bodies instead of points, for pairs of neighboring bins instead of blocks, and
+/// without the linear flow that all of them follow, in which bodies that are apart stay apart.
 class NeighborMotion {
  public:
-  /// From now on displacements count from `x`. Bodies are neighbors where their `centres` are
-  /// nearer to each other than `near`. Both have three numbers for each point, or body. `bodies`
-  /// must stay.
-  void hold(const double *x, const NumberLists &bodies, const std::vector<double> &centres,
-            double near);
+  /// From now on displacements count from these positions of the points of all bodies, in the order
+  /// of their lists, each of which is whole groups of GROUP. Bodies are neighbors where their
+  /// `centres`, of three numbers each, are nearer to each other than `near`. `positions` and
+  /// `bodies` must stay.
+  void hold(const PointArrays &positions, const NumberLists &bodies,
+            const std::vector<double> &centres, double near);
 
-  /// Bounds of the difference of two displacements, each of any point of a body, for the positions
-  /// `x`: infinite if one is not a number.
+  /// Bounds of how much any points of two bodies have moved relative to each other on straight
+  /// lines to the positions `x`, by way of those for which it was called since hold(). They are
+  /// for coordinates that follow a linear flow whose norm() is below 0.5; bodies that touch do so
+  /// in these, too. Infinite if a position is not a number.
   struct Differences {
     double near;     ///< of neighbors
     double wider;    ///< of bodies nearer to each other than twice that
@@ -28,13 +34,7 @@ class NeighborMotion {
   };
   Differences differences(const double *x);
 
-  /// Bound of the difference, when last asked for, of a body and any neighbor; 0 after hold().
-  double around(int body) const { return around_[bin_[body]]; }
-
   /// Between which bounds the displacements of a body were along a line, when last asked for.
-  struct Bounds {
-    double lowest, highest;
-  };
   Bounds along(int body, PlainVector line) const
   {
     const double axis[3] = {line.x, line.y, line.z};
@@ -63,13 +63,18 @@ class NeighborMotion {
 
   std::optional<SpatialBins> bins_;
   const NumberLists *bodies_ = nullptr;
-  std::vector<int> bin_;                                   ///< of each body
-  std::vector<double> held_;                               ///< positions, in the order of the lists
-  std::vector<double> around_;                             ///< of each bin
-  std::vector<Extent> body_extents_, extents_, merged_;    ///< extents_: of each bin
+  std::vector<int> bin_;    ///< of each body
+  const PointArrays *held_ = nullptr;
+  PointArrays moved_;
+  std::vector<Extent> body_extents_, extents_, merged_;    ///< extents_: of each bin, less flow_
+  LinearFlow flow_;
+  double strain_ = 0;       ///< norm of the flow, the largest since hold()
+  Differences widths_{};    ///< likewise, of what the flow leaves
 
-  bool find_extents(const double *x);
-  double find_around();
+  bool find_displacements(const double *x);
+  void fit_flow();
+  void find_extents();
+  double width_of_neighbors() const;
 };
 
 }    // namespace rbc

@@ -45,4 +45,25 @@ std::vector<std::vector<int>> surface_patches(const SurfaceTemplate &surface, do
   return patches;
 }
 
+std::vector<char> fans_that_see(const SurfaceTemplate &surface,
+                                const std::vector<std::vector<int>> &patches,
+                                const std::vector<TriangleFans::Place> &places)
+{
+  int fans = 0;
+  for (const auto &place : places) fans = std::max(fans, place.fan + 1);
+  std::vector<int> sizes(fans, 0), hidden(fans);
+  for (const auto &place : places) ++sizes[place.fan];
+  std::vector<char> see(std::size_t(fans) * fans, 0);
+  for (int v = 0; v < surface.vertex_count(); ++v) {
+    std::fill(hidden.begin(), hidden.end(), 0);
+    for (int t : patches[v]) ++hidden[places[t].fan];
+    for (int t : surface.incident_triangles[v])
+      for (int other = 0; other < fans; ++other)
+        if (hidden[other] < sizes[other])
+          see[std::size_t(places[t].fan) * fans + other] =
+              see[std::size_t(other) * fans + places[t].fan] = 1;
+  }
+  return see;
+}
+
 }    // namespace rbc

@@ -19,8 +19,59 @@ void TriangleFans::find(const std::vector<NearTriangles::Triangle> &all, int poi
     fan_of_[t] = fan_of(all, all[t]);
     fans = std::max(fans, fan_of_[t] + 1);
   }
+  collect(all, fans);
+}
+
+std::vector<TriangleFans::Place>
+TriangleFans::places(const std::vector<NearTriangles::Triangle> &all) const
+{
+  std::vector<Place> places(all.size(), Place{0, -1, false, 0});
+  for (std::size_t t = 0; t < all.size(); ++t) {
+    Place &place = places[t];
+    place.fan = fan_of_[t];
+    for (int c = 0; c < 3; ++c) {
+      const int v = all[t].corner[c];
+      if (nearest_[v] != place.fan) continue;
+      if (place.known < 0 || in_middle_[v]) place.known = static_cast<signed char>(c);
+      if (in_middle_[v])
+        place.by_middle = true;
+      else
+        place.rim |= 1u << c;
+    }
+  }
+  return places;
+}
+
+/* ----------------------------------------------------------------------
+   A triangle whose corner at a rim has no fan here, as its middle is not, becomes one.
+------------------------------------------------------------------------- */
+
+void TriangleFans::join(const std::vector<NearTriangles::Triangle> &all,
+                        const std::vector<Place> &places, int points)
+{
+  nearest_.assign(points, -1);
+  fan_of_.resize(all.size());
+  int fans = 0;
+  for (std::size_t t = 0; t < all.size(); ++t) {
+    if (!places[t].by_middle) continue;
+    int &fan = nearest_[all[t].corner[places[t].known]];
+    if (fan < 0) fan = fans++;
+    fan_of_[t] = fan;
+    for (int c = 0; c < 3; ++c)
+      if (places[t].rim & 1u << c) nearest_[all[t].corner[c]] = fan;
+  }
+  for (std::size_t t = 0; t < all.size(); ++t) {
+    if (places[t].by_middle) continue;
+    const int fan = nearest_[all[t].corner[places[t].known]];
+    fan_of_[t] = fan >= 0 ? fan : fans++;
+  }
+  collect(all, fans);
+}
+
+void TriangleFans::collect(const std::vector<NearTriangles::Triangle> &all, int fans)
+{
   triangles.fill(fans, next_, [&](const auto &put) {
-    for (int t = 0; t < count; ++t) put(fan_of_[t], t);
+    for (std::size_t t = 0; t < all.size(); ++t) put(fan_of_[t], static_cast<int>(t));
   });
   collect_corners(all);
 }
@@ -46,7 +97,8 @@ void TriangleFans::choose_middles(const std::vector<NearTriangles::Triangle> &al
 }
 
 /* ----------------------------------------------------------------------
-   that of its corner in a middle, else of a neighbor with such a corner
+   that of its corner in a middle, else of a neighbor with such a corner, if one of its own corners
+   at the rim of that fan has no other
 ------------------------------------------------------------------------- */
 
 int TriangleFans::fan_of(const std::vector<NearTriangles::Triangle> &all,
@@ -62,11 +114,16 @@ int TriangleFans::fan_of(const std::vector<NearTriangles::Triangle> &all,
   const auto is_corner = [&](int w) {
     return w == triangle.corner[0] || w == triangle.corner[1] || w == triangle.corner[2];
   };
+  const auto is_nearest = [&](int fan) {
+    return fan == nearest_[triangle.corner[0]] || fan == nearest_[triangle.corner[1]] ||
+           fan == nearest_[triangle.corner[2]];
+  };
   for (int v : triangle.corner)
     for (int n = around_.begin[v]; n < around_.begin[v + 1]; ++n) {
       const NearTriangles::Triangle &other = all[around_.number[n]];
       const int fan = middle_of(other);
-      if (fan >= 0 && std::count_if(other.corner.begin(), other.corner.end(), is_corner) == 2)
+      if (fan >= 0 && is_nearest(fan) &&
+          std::count_if(other.corner.begin(), other.corner.end(), is_corner) == 2)
         return fan;
     }
   return nearest_[triangle.corner[0]];
@@ -74,7 +131,7 @@ int TriangleFans::fan_of(const std::vector<NearTriangles::Triangle> &all,
 
 void TriangleFans::collect_corners(const std::vector<NearTriangles::Triangle> &all)
 {
-  next_.assign(around_.count(), -1);    // the last fan that has a corner
+  next_.assign(nearest_.size(), -1);    // the last fan that has a corner
   corners.number.clear();
   corners.begin.assign(1, 0);
   for (int fan = 0; fan < triangles.count(); ++fan) {

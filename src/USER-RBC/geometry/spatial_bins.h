@@ -56,6 +56,21 @@ class SpatialBins {
       f(index(first, m, k + 1), index(last, m, k + 1));
   }
 
+  /// The same for all bins within a distance of a point, however many they are.
+  template <typename Function>
+  void visit_half_within(PlainVector x, double distance, const Function &f) const
+  {
+    const int i = along(0, x.x), j = along(1, x.y), k = along(2, x.z);
+    for (int m = k; m <= along(2, x.z + distance); ++m) {
+      const double wide = leg(distance, this->distance(2, m, x.z));
+      for (int n = m == k ? j : along(1, x.y - wide); n <= along(1, x.y + wide); ++n) {
+        const double along_row = leg(wide, this->distance(1, n, x.y));
+        const bool own = m == k && n == j;
+        f(index(own ? i : along(0, x.x - along_row), n, m), index(along(0, x.x + along_row), n, m));
+      }
+    }
+  }
+
   /// Distance along a direction to the bins numbered n there; those at the rim have no end.
   double distance(int d, int n, double x) const
   {
@@ -67,6 +82,12 @@ class SpatialBins {
  private:
   double lo_[3], size_, inverse_;
   int count_[3];
+
+  /// Of a right triangle with this hypotenuse.
+  static double leg(double hypotenuse, double other)
+  {
+    return std::sqrt(std::max(0.0, hypotenuse * hypotenuse - other * other));
+  }
 };
 
 /// Adds to each bin's value those of the bins around it, in boxes numbered as those of

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 namespace rbc {
 
 /// Calls f(n) for n < count in any order, many at once where f allows it: no branches, no calls
@@ -18,6 +20,36 @@ template <typename Function> [[gnu::always_inline]] inline double sum(int count,
 #pragma omp simd reduction(+ : sum)
   for (int n = 0; n < count; ++n) sum += f(n);
   return sum;
+}
+
+/// Bounds of several numbers; those of none are the wrong way around.
+struct Bounds {
+  double lowest, highest;
+};
+
+/// Bounds of f(n) for begin <= n < end, likewise, for whole groups of as many numbers as GROUP.
+constexpr int GROUP = 4;
+template <typename Function>
+[[gnu::always_inline]] inline Bounds bounds(int begin, int end, const Function &f)
+{
+  constexpr double never = std::numeric_limits<double>::max();
+  double lowest[GROUP], highest[GROUP];
+  for_each(GROUP, [&](int lane) {
+    lowest[lane] = never;
+    highest[lane] = -never;
+  });
+  for (int from = begin; from < end; from += GROUP)
+    for_each(GROUP, [&](int lane) {
+      const double number = f(from + lane);
+      lowest[lane] = number < lowest[lane] ? number : lowest[lane];
+      highest[lane] = number > highest[lane] ? number : highest[lane];
+    });
+  Bounds all{lowest[0], highest[0]};
+  for (int lane = 1; lane < GROUP; ++lane) {
+    all.lowest = lowest[lane] < all.lowest ? lowest[lane] : all.lowest;
+    all.highest = highest[lane] > all.highest ? highest[lane] : all.highest;
+  }
+  return all;
 }
 
 }    // namespace rbc
