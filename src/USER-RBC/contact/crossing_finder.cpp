@@ -261,7 +261,8 @@ void CrossingFinder::find_normals(const double *x)
     PlainVector sum{0, 0, 0};
     for (int n = triangles.begin[fan]; n < triangles.begin[fan + 1]; ++n)
       sum = sum + twice_area(x, scene_.triangles[triangles.number[n]]);
-    normal_[fan] = unit(sum);
+    normal_[fan].line = unit(sum);
+    normal_[fan].along = along(fan, normal_[fan].line);
   }
 }
 
@@ -279,19 +280,30 @@ void CrossingFinder::consider_fans(const double *x, Pair fans)
   const bool own = surfaces[0] == surfaces[1];
   if (own && scene_.fans_tested && !scene_.fans_tested(triangles)) return;
   Listed listed{fans, fans, true, true, 0, {}};
-  const PlainVector lines[3] = {
-      normal_[fans.first], normal_[fans.second],
-      unit(at(near_.centres().data(), fans.first) - at(near_.centres().data(), fans.second))};
-  for (const PlainVector &line : lines) {
-    keep_line(listed, line, along(fans.first, line), along(fans.second, line));
-    if (listed.gap > reach_) return;
-    if (listed.gap > WIDE * reach_) break;
-  }
+  try_fan_lines(listed);
+  if (listed.gap > reach_) return;
   if (!own && !scene_.tested(triangles)) return;
   if (listed.gap > 0)
     listed_.push_back(listed);
   else
     split(x, fans, reach_);
+}
+
+/* ----------------------------------------------------------------------
+   Those of both normals and that between the centres, until one is good enough.
+------------------------------------------------------------------------- */
+
+void CrossingFinder::try_fan_lines(Listed &listed) const
+{
+  const auto [first, second] = listed.pair;
+  const Normal &one = normal_[first], &other = normal_[second];
+  keep_line(listed, one.line, one.along, along(second, one.line));
+  if (listed.gap > WIDE * reach_) return;
+  keep_line(listed, other.line, along(first, other.line), other.along);
+  if (listed.gap > WIDE * reach_) return;
+  const PlainVector between =
+      unit(at(near_.centres().data(), first) - at(near_.centres().data(), second));
+  keep_line(listed, between, along(first, between), along(second, between));
 }
 
 /* ----------------------------------------------------------------------
@@ -386,7 +398,7 @@ bool CrossingFinder::is_here(bool first_owned, bool second_owned, Surface first,
 std::size_t CrossingFinder::bytes() const
 {
   return (start_.capacity() + end_.capacity()) * sizeof(double) + near_.bytes() + motion_.bytes() +
-         held_.bytes() + normal_.capacity() * sizeof(PlainVector) +
+         held_.bytes() + normal_.capacity() * sizeof(Normal) +
          spheres_.capacity() * sizeof(Sphere) + listed_.capacity() * sizeof(Listed) +
          scene_.triangles.capacity() * sizeof(Triangle) +
          scene_.places.capacity() * sizeof(TriangleFans::Place);

@@ -92,6 +92,12 @@ class CrossingFinder {
     int triangle;
   };
 
+  /// The normal of a fan, and where its corners were along it when listed.
+  struct Normal {
+    PlainVector line;
+    Bounds along;
+  };
+
   /// The corners of a fan or a triangle.
   struct Corners {
     const int *first, *last;
@@ -112,13 +118,14 @@ class CrossingFinder {
   NeighborMotion motion_;
   std::vector<Listed> listed_;
 
-  std::vector<Sphere> spheres_;        ///< of a fan
-  std::vector<PlainVector> normal_;    ///< of each fan near owned ones
+  std::vector<Sphere> spheres_;    ///< of a fan
+  std::vector<Normal> normal_;     ///< of each fan near owned ones
   Counts counts_;
 
   void list(const double *x, double reach);
   void find_needed_reach(const double *x);
   void find_normals(const double *x);
+  void try_fan_lines(Listed &listed) const;
   void consider_fans(const double *x, Pair fans);
   static Sphere sphere_around(const double *x, const Triangle &triangle);
   void find_spheres(const double *x, int fan);
