@@ -108,6 +108,13 @@ class Crossings(unittest.TestCase):
                 self.assertRegex(result.error, "^Pair rbc/jkr: " + CROSSED)
                 self.assertEqual(max(crossings(result.dump())), 0)
 
+    def test_by_one_of_equal_styles(self):
+        styles = ("pair_style hybrid/overlay rbc/jkr 0.4 rbc/jkr 0.4\n"
+                  "pair_coeff * * rbc/jkr 1 repulsive 0.01 0.3\n"
+                  "pair_coeff * * rbc/jkr 2 repulsive 0.01 0.3\n")
+        result = run(pressed(0, gap=-0.3, before=styles + pushes(0.002), run="run 1"))
+        self.assertEqual(result.printed.count("surfaces of 1 pair of cells cross at the start"), 1)
+
     def test_cells_that_do_not_touch_may_cross(self):
         kinds = ("mass * 1.0\ngroup second id > 162\nset group second type 2\npair_style rbc/jkr 0.4\n"
                  "pair_coeff * * repulsive 1e-6 0.3\npair_coeff 1 2 none\n")

@@ -161,6 +161,16 @@ class BetweenCells(unittest.TestCase):
                                   [("yes", "\npair_modify compute no"), ("no", "")])
         self.assertLess(abs(idle - plain).max() / abs(plain).max(), 1e-14)
 
+    def test_a_cell_sees_itself_by_any_style_of_hybrid(self):
+        # by the inside: the faces of its middle are 0.8 apart
+        forces = random_forces(9)
+        styles = ("rbc/jkr 1.5 self yes", "rbc/jkr 1.5")
+        pairs = [f"pair_style hybrid/overlay {' '.join(order)}\npair_coeff * * rbc/jkr 1 none\n"
+                 "pair_coeff * * rbc/jkr 2 none" for order in (styles, styles[::-1], styles[1:] * 2)]
+        first, second, neither = in_parallel(lambda pair: velocities(forces, pair=pair), [(pair,) for pair in pairs])
+        self.assertLess(abs(second - first).max() / abs(first).max(), 1e-14)
+        self.assertGreater(abs(neither - first).max() / abs(first).max(), 1e-3)
+
     def test_fixes_in_the_wrong_order(self):
         # pair styles are initialised before fixes, and ask fix rbc/ib how far it sees
         result = attempt(scene(before=SEEN, membrane=None, fluid=None,

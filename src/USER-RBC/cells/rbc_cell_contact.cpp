@@ -25,7 +25,10 @@ std::vector<CellContact *> LAMMPS_NS::find_cell_contacts(Force *force)
 CellContact *LAMMPS_NS::find_cell_contact(Force *force)
 {
   const std::vector<CellContact *> contacts = find_cell_contacts(force);
-  return contacts.empty() ? nullptr : contacts.front();
+  const auto most = std::max_element(
+      contacts.begin(), contacts.end(),
+      [](const CellContact *a, const CellContact *b) { return a->own_gap() < b->own_gap(); });
+  return most == contacts.end() ? nullptr : *most;
 }
 
 double LAMMPS_NS::widest_gap_wanted(Modify *modify)

@@ -48,7 +48,8 @@ class ContactReader {
 /// included.
 std::vector<CellContact *> find_cell_contacts(class Force *force);
 
-/// The first of them, or null.
+/// Of them the first that sees the most, or null: all see all cells, those with an own_gap() also
+/// these cells themselves.
 CellContact *find_cell_contact(class Force *force);
 
 /// The widest gap that any fix wants, or 0.

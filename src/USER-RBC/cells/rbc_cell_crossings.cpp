@@ -1,6 +1,7 @@
 #include "cells/rbc_cell_crossings.h"
 
 #include "atom.h"
+#include "cells/rbc_cell_contact.h"
 #include "cells/rbc_near_surfaces.h"
 #include "comm.h"
 #include "error.h"
@@ -35,8 +36,11 @@ CellCrossings::CellCrossings(LAMMPS *lmp, std::string style, const NearSurfaces 
 
 /* ---------------------------------------------------------------------- */
 
-void CellCrossings::start_run()
+bool CellCrossings::start_run(const CellContact &style, std::vector<const CellContact *> before)
 {
+  own_gap_ = style.own_gap();
+  before_ = std::move(before);
+  if (!tests_anything()) return false;
   retaken_ = 0;
   left_out_.clear();
   build_ = -1;
@@ -47,16 +51,17 @@ void CellCrossings::start_run()
   for (const auto &[first, second] : here) mine.insert(mine.end(), {first, second});
   const std::vector<tagint> all = gather_all(mine, world);
   for (std::size_t n = 0; n < all.size(); n += 2) left_out_.insert({all[n], all[n + 1]});
-  if (left_out_.empty()) return;
+  if (left_out_.empty()) return true;
 
   build_ = -1;    // the lists have them still
-  if (comm->me != 0) return;
+  if (comm->me != 0) return true;
   const auto [first, second] = *left_out_.begin();
   error->warning(FLERR,
                  "{}: surfaces of {} pair{} of cells cross at the start of the run, first those "
                  "of the cells with molecule IDs {} and {}; what passes through what there is not "
                  "tested in this run",
                  style_, left_out_.size(), left_out_.size() > 1 ? "s" : "", first, second);
+  return true;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -82,11 +87,43 @@ bool CellCrossings::is_tested(Pair pair) const
 {
   const auto &first = surfaces_.known_triangles()[pair.first].corner;
   const auto &second = surfaces_.known_triangles()[pair.second].corner;
-  if (!touch_(atom->type[first[0]], atom->type[second[0]])) return false;
   if (!left_out_.empty() && left_out_.count(cells(pair))) return false;
-  if (atom->molecule[first[0]] != atom->molecule[second[0]]) return true;
-  return std::any_of(first.begin(), first.end(),
-                     [&](int i) { return surfaces_.sees_own(i, pair.second); });
+  if (atom->molecule[first[0]] != atom->molecule[second[0]])
+    return tests_types(atom->type[first[0]], atom->type[second[0]]);
+  return tests_itself(atom->type[first[0]]) && std::any_of(first.begin(), first.end(), [&](int i) {
+           return surfaces_.sees_own(i, pair.second);
+         });
+}
+
+bool CellCrossings::tests_types(int itype, int jtype) const
+{
+  return touch_(itype, jtype) &&
+         std::none_of(before_.begin(), before_.end(), [=](const CellContact *style) {
+           return style->contact_range(itype, jtype) > 0;
+         });
+}
+
+/* ----------------------------------------------------------------------
+   the nearer a cell sees itself, the more of it
+------------------------------------------------------------------------- */
+
+bool CellCrossings::tests_itself(int itype) const
+{
+  return own_gap_ > 0 && touch_(itype, itype) &&
+         std::none_of(before_.begin(), before_.end(), [=](const CellContact *style) {
+           return style->contact_range(itype, itype) > 0 && style->own_gap() > 0 &&
+                  style->own_gap() <= own_gap_;
+         });
+}
+
+bool CellCrossings::tests_anything() const
+{
+  for (int i = 1; i <= atom->ntypes; ++i) {
+    if (tests_itself(i)) return true;
+    for (int j = i; j <= atom->ntypes; ++j)
+      if (tests_types(i, j)) return true;
+  }
+  return false;
 }
 
 CellCrossings::Cells CellCrossings::cells(Pair pair) const

@@ -11,9 +11,11 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace LAMMPS_NS {
 
+class CellContact;
 class NearSurfaces;
 
 /// Whether surfaces of cells pass through each other in a step. Vertices move along straight lines
@@ -25,8 +27,9 @@ class CellCrossings : protected Pointers {
                 std::function<bool(int itype, int jtype)> touch);
 
   /// At the start of a run, after `surfaces` were built: cells that cross already are left out in
-  /// this run, with a warning. Collective.
-  void start_run();
+  /// this run, with a warning. What styles `before` this one, `style`, test is left to them. Returns
+  /// whether there is anything else. Collective.
+  bool start_run(const CellContact &style, std::vector<const CellContact *> before);
 
   /// The atoms, ghosts too, are where the step starts. Not collective.
   void start_step();
@@ -53,7 +56,9 @@ class CellCrossings : protected Pointers {
   const NearSurfaces &surfaces_;
   std::function<bool(int, int)> touch_;
   rbc::CrossingFinder finder_;
-  bigint build_ = -1;           ///< of the surfaces, from which the finder knows its triangles
+  bigint build_ = -1;    ///< of the surfaces, from which the finder knows its triangles
+  std::vector<const CellContact *> before_;
+  double own_gap_ = 0;
   std::set<Cells> left_out_;    ///< as they crossed at the start of the run
   bigint retaken_ = 0;
   rbc::Stopwatch stopwatch_;
@@ -61,6 +66,9 @@ class CellCrossings : protected Pointers {
   void learn_triangles();
   void report_found(CollectiveStop &stop);
   bool is_tested(Pair pair) const;
+  bool tests_types(int itype, int jtype) const;
+  bool tests_itself(int itype) const;
+  bool tests_anything() const;
   Cells cells(Pair pair) const;
 };
 

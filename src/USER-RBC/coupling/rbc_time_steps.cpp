@@ -101,15 +101,19 @@ void TimeSteps::atoms_migrated()
 }
 
 /* ----------------------------------------------------------------------
-   each style knows which surfaces it lets touch
+   Each style knows which surfaces it lets touch, and tests those that none before it does.
 ------------------------------------------------------------------------- */
 
 void TimeSteps::find_crossings()
 {
   crossings_.clear();
-  for (CellContact *contact : find_cell_contacts(force))
-    if (CellCrossings *const crossings = contact->crossings()) crossings_.push_back(crossings);
-  for (CellCrossings *crossings : crossings_) crossings->start_run();
+  std::vector<const CellContact *> before;
+  for (CellContact *contact : find_cell_contacts(force)) {
+    CellCrossings *const crossings = contact->crossings();
+    if (!crossings) continue;
+    if (crossings->start_run(*contact, before)) crossings_.push_back(crossings);
+    before.push_back(contact);
+  }
 }
 
 void TimeSteps::report_crossings()
