@@ -29,7 +29,7 @@ DIAMETER = 7.82    # um
 SCENES = {
     "capsule-channel": (dict(shape="capsule_642", length=5, cells=12), 80, 3.4),
     "tube-poiseuille": (dict(length=9.6), 400, DIAMETER),
-    "fahraeus": (dict(length=8.4, hematocrit=0.45), 400, DIAMETER),
+    "fahraeus": (dict(length=8.4, hematocrit=0.45, shape="rbc_642", dx=0.6), 400, DIAMETER),
     "throat": (dict(length=4, width=2, throat=1.2, hematocrit=0.3), 200, DIAMETER)}
 
 

@@ -5,7 +5,7 @@ et al. to measurements.
 Runs in.fahraeus in a folder for each case, and once without cells, writes fahraeus.csv and draws
 fahraeus.png. Cases of which the folder is there already are not run again.
 
-study.py --output FOLDER [--folder runs] [--lmp ../../build/lmp_rbc] [--only d20h30 d10h30]
+study.py --output FOLDER [--folder runs] [--lmp ../../build/lmp_rbc] [--only d20h30-coarse]
 """
 import csv
 import subprocess
@@ -20,18 +20,22 @@ import example_study  # noqa: E402
 from read_ave_time import read_ave_time  # noqa: E402
 from snapshots import surfaces  # noqa: E402
 
-CASES = {    # variables of in.fahraeus
-    "d20h30": {"diameter": 20, "hematocrit": 0.3, "length": 10.5, "dx": 0.5, "turns": 12},
-    "d20h45": {"diameter": 20, "hematocrit": 0.45, "length": 10.5, "dx": 0.5, "turns": 12},
-    "d40h30": {"diameter": 40, "hematocrit": 0.3, "length": 10.5, "dx": 0.5, "turns": 12},
-    "d40h45": {"diameter": 40, "hematocrit": 0.45, "length": 10.5, "dx": 0.5, "turns": 12},
-    "d10h30": {"diameter": 10, "hematocrit": 0.3, "length": 16, "dx": 0.5, "turns": 12},
-    "d20h30coarse": {"diameter": 20, "hematocrit": 0.3, "length": 10.8, "dx": 0.6, "turns": 12},
+TUBES = {    # variables of in.fahraeus
+    "d10h30": {"diameter": 10, "hematocrit": 0.3, "length": 15.5, "turns": 36},
+    "d10h45": {"diameter": 10, "hematocrit": 0.45, "length": 15.5, "turns": 36, "seed": 1},    # six cells fit in
+    "d20h30": {"diameter": 20, "hematocrit": 0.3, "length": 10.5},
+    "d20h45": {"diameter": 20, "hematocrit": 0.45, "length": 10.5},
+    "d40h30": {"diameter": 40, "hematocrit": 0.3, "length": 10.5},
+    "d40h45": {"diameter": 40, "hematocrit": 0.45, "length": 10.5},
 }
+MESHES = {"coarse": {"shape": "rbc_162", "dx": 0.65}, "fine": {"shape": "rbc_362", "dx": 0.5}}
+CASES = {f"{tube}-{mesh}": {**TUBES[tube], **MESHES[mesh]} for tube in TUBES for mesh in MESHES
+         if mesh == "coarse" or not tube.startswith("d40")}    # for want of time
 RATE = 50e-6             # mean velocity over diameter, 1/us
-COLORS = {"d20h30": "#b3202a", "d20h45": "#2a6fb0", "d40h30": "#e8813a", "d40h45": "#7d3c98", "d10h30": "#4b8b3b",
-          "d20h30coarse": "#d98880"}
-PICTURES = "d20h45", "d40h45", "d10h30"
+COLORS = {"d10h30": "#8cbf6f", "d10h45": "#33691e", "d20h30": "#e06666", "d20h45": "#8b1a1a", "d40h30": "#6fa8dc",
+          "d40h45": "#1c4587"}
+WIDTHS = {"coarse": 1, "fine": 2}    # of lines
+PICTURES = "d10h45-fine", "d20h45-fine", "d40h45-coarse"
 
 
 def pries_viscosity(diameter, discharge):
@@ -88,7 +92,7 @@ def layers(folder, diameter, length, dx):
     return np.array(rows).T
 
 
-def measure(folder, plasma, diameter=20, length=10.8, dx=0.6, **_):
+def measure(folder, plasma, diameter=20, length=10.5, dx=0.65, shape="rbc_162", **_):
     """Histories over U t / D, and means over the last third and the third before it."""
     history, cells = read_history(folder / "tube.dat"), read_ave_time(folder / "cell.dat")
     turned = history["v_time"] * RATE
@@ -99,7 +103,7 @@ def measure(folder, plasma, diameter=20, length=10.8, dx=0.6, **_):
     time, layer = layers(folder, diameter, length, dx)
     case = {"turned": turned, "viscosity": viscosity, "ratio": ratio, "layer": (time * RATE, layer)}
     thirds = {"last": turned > 2 / 3 * turned[-1], "before": abs(turned / turned[-1] - 0.5) < 1 / 6}
-    row = {"diameter": diameter, "length": length, "dx": dx, "cells": volumes.shape[1], "turns": turned[-1], "tube": real_tube}
+    row = {"diameter": diameter, "length": length, "vertices": int(shape[4:]), "dx": dx, "cells": volumes.shape[1], "turns": turned[-1], "tube": real_tube}
     for name, chosen in thirds.items():
         row[f"viscosity_{name}"] = viscosity[chosen].mean()
         row[f"ratio_{name}"] = ratio[chosen].mean()
@@ -123,20 +127,23 @@ def draw(cases, rows, pictures, path):
     grid = figure.add_gridspec(2, 6, height_ratios=(4, 3))
     panels = [figure.add_subplot(grid[0, 2 * n:2 * n + 2]) for n in range(3)]
     for name, case in cases.items():
-        row, color = rows[name], COLORS[name]
-        label = f"{row['diameter']:g} µm, {100 * row['tube']:.0f} %, period {row['length']:g} µm, dx {row['dx']:g} µm"
+        row, (tube, mesh) = rows[name], name.split("-")
+        label = f"{row['diameter']:g} µm, {100 * TUBES[tube]['hematocrit']:.0f} %"
         for panel, series, reference in zip(panels, ("viscosity", "ratio", "layer"), ("pries_viscosity", "pries_ratio", None)):
             x, y = case[series] if series == "layer" else (case["turned"], case[series])
-            panel.plot(x, y, color=color, label=label)
-            if reference and not name.endswith("coarse"):
-                panel.axhline(row[reference], color=color, ls="--", lw=1)
+            x = x / row["turns"]
+            panel.plot(x, y, color=COLORS[tube], lw=WIDTHS[mesh], label=label if mesh == "coarse" else None)
+            if reference and mesh == "coarse":
+                panel.axhline(row[reference], color=COLORS[tube], ls="--", lw=1)
     panels[0].set(ylabel="viscosity over that of plasma", ylim=(1, None))
     panels[1].set(ylabel="tube over discharge hematocrit", ylim=(None, 1))
     panels[2].set(ylabel="cell-free layer / µm", ylim=(0, None))
+    for mesh, width in WIDTHS.items():
+        panels[0].plot([], [], "k", lw=width, label=f"{MESHES[mesh]['shape'][4:]} vertices, dx {MESHES[mesh]['dx']} µm")
     panels[0].plot([], [], "k--", lw=1, label="Pries et al., same tube hematocrit")
     for panel in panels:
-        panel.set(xlabel="time × mean velocity / diameter", xlim=(0, None))
-    panels[0].legend(frameon=False, fontsize=8)
+        panel.set(xlabel="time over that of the run", xlim=(0, 1))
+    panels[0].legend(frameon=False, fontsize=8, ncols=2)
     for n, (name, picture) in enumerate(pictures.items()):
         panel = figure.add_subplot(grid[1, 6 // len(pictures) * n:6 // len(pictures) * (n + 1)])
         panel.imshow(plt.imread(picture))
