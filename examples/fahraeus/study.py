@@ -28,13 +28,14 @@ TUBES = {    # variables of in.fahraeus
     "d40h30": {"diameter": 40, "hematocrit": 0.3, "length": 10.5},
     "d40h45": {"diameter": 40, "hematocrit": 0.45, "length": 10.5},
 }
-MESHES = {"coarse": {"shape": "rbc_162", "dx": 0.65}, "fine": {"shape": "rbc_362", "dx": 0.5}}
+MESHES = {"coarsest": {"shape": "rbc_162", "dx": 0.8, "range": 0.8}, "coarse": {"shape": "rbc_162", "dx": 0.65},
+          "fine": {"shape": "rbc_362", "dx": 0.5}}
 CASES = {f"{tube}-{mesh}": {**TUBES[tube], **MESHES[mesh]} for tube in TUBES for mesh in MESHES
-         if mesh == "coarse" or not tube.startswith("d40")}    # for want of time
+         if mesh == "coarse" or mesh == ("coarsest" if tube == "d40h30" else "fine") and tube != "d40h45"}
 RATE = 50e-6             # mean velocity over diameter, 1/us
 COLORS = {"d10h30": "#8cbf6f", "d10h45": "#33691e", "d20h30": "#e06666", "d20h45": "#8b1a1a", "d40h30": "#6fa8dc",
           "d40h45": "#1c4587"}
-WIDTHS = {"coarse": 1, "fine": 2}    # of lines
+WIDTHS = {"coarsest": 0.5, "coarse": 1, "fine": 2}    # of lines
 PICTURES = "d10h45-fine", "d20h45-fine", "d40h45-coarse"
 
 
