@@ -176,7 +176,7 @@ def _example(name, variables):
     files = {SCRIPT: "\n".join(settings + lines) + "\n",
              "cell.mol": _template(shape),
              "cell.material": (POTENTIALS / f"{material}.material").read_text()}
-    if folder == "blood":
+    if "dense.blood" in files[SCRIPT]:
         dense = (POTENTIALS / "dense.blood").read_text()
         files["dense.blood"] = "\n".join(_joined(dense)) + "\n"
     files = {file: text.encode() for file, text in files.items()}
