@@ -1,6 +1,7 @@
 """What the study.py of the examples share: their options and how they run the example's script."""
 import csv
 import os
+import resource
 import subprocess
 from pathlib import Path
 
@@ -35,10 +36,16 @@ def wanted(arguments, series):
     return arguments.only is None or series in arguments.only
 
 
-def run_script(arguments, script, folder, variables, templates=POTENTIALS):
+def processor_seconds():
+    """Of the runs that have ended, on all their cores: others may use the machine at the time."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def run_script(arguments, script, folder, variables, templates=POTENTIALS, log="none"):
     """Runs an input script in a folder; a list gives a variable several values. Returns what
     subprocess.run does."""
-    command = [arguments.lmp, "-in", script, "-log", "none", "-var", "templates", templates]
+    command = [arguments.lmp, "-in", script, "-log", log, "-var", "templates", templates]
     for name, value in variables.items():
         command += ["-var", name, *map(str, value if isinstance(value, list) else [value])]
     if arguments.ranks > 1:

@@ -7,43 +7,25 @@ folder and prints the table of the README.
 converge.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1] [--only rbc_162 rbc_362 rbc_642]
 """
 import itertools
-import resource
 import sys
-import tempfile
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
 import command_line  # noqa: E402
 import example_study  # noqa: E402
-from read_ave_time import read_table  # noqa: E402
-from study import settled  # noqa: E402
+from blood_study import COLUMNS, measure_viscosity  # noqa: E402
 
 KERNELS = "roma3", "peskin4"
 RATES = 100, 10    # 1/s
 SMOOTH = "no", "yes"
 RESOLUTIONS = (("rbc_162", 0.8), ("rbc_162", 0.65), ("rbc_362", 0.5), ("rbc_642", 0.4), ("rbc_2562", 0.25))
-STRAIN = 5
-SMALL_BOX = {"length": 14, "gap": 12, "hematocrit": 0.4, "strain": STRAIN}
-COLUMNS = "viscosity", "core_seconds"
-
-
-def processor_seconds():
-    """Of the runs that have ended, on all their cores: others may use the machine at the time."""
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
+SMALL_BOX = {"length": 14, "gap": 12, "hematocrit": 0.4, "strain": 5}
 
 
 def measure(arguments, variables):
-    """A row of COLUMNS; NaN for the viscosity of a run that stopped."""
-    with tempfile.TemporaryDirectory() as folder:
-        before = processor_seconds()
-        done = example_study.run_script(arguments, HERE / "in.blood", folder, {**SMALL_BOX, **variables})
-        seconds = processor_seconds() - before
-        table = read_table(Path(folder) / "blood.dat")
-    if done.returncode:
-        print(done.stdout[-2000:])
-    return [[float("nan") if done.returncode else settled(table, STRAIN), seconds]]
+    """A row of COLUMNS."""
+    return measure_viscosity(arguments, HERE / "in.blood", {**SMALL_BOX, **variables})
 
 
 def label(kernel, shape, dx, rate, smooth):

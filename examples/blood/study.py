@@ -18,6 +18,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
 import command_line  # noqa: E402
 import example_study  # noqa: E402
+from blood_study import settled  # noqa: E402
 from read_ave_time import read_table  # noqa: E402
 
 KERNELS = "roma3", "peskin4"
@@ -37,11 +38,6 @@ SCENE_STRAIN = 10
 SCENE_COLUMNS = "peak", "late", *COLUMNS[2:]
 
 README_COLUMNS = "through", "strain", "again", "wrong", "warned"
-
-
-def settled(table, strain):
-    """Mean viscosity over that of plasma in the last two fifths of the strain."""
-    return table["v_relative"][table["v_sheared"] > 0.6 * strain].mean()
 
 
 def log_lines(printed):

@@ -36,10 +36,11 @@ from surface_gaps import read_cells  # noqa: E402
 SCRIPTS = HERE.parents[1] / "scripts"
 RATES = 10, 60, 100                          # 1/s
 KINDS = {"a": 2.0e-4, "r": 0.0}              # work of adhesion, mJ/m^2
-NAMES = {"a": "adhesive", "r": "repulsive"}
-VOLUME, HEMATOCRIT, GAP = 93.53, 0.45, 30    # of in.suspension
+WORDS = {"a": "adhesive", "r": "repulsive"}
+NAMES = [f"{kind}{rate}" for kind in KINDS for rate in RATES]
+SECONDS = "core_seconds.txt"                 # in the folder of a run
 SETTLED = 10                                 # strain from which means are taken
-REACH = 0.6                                  # gaps that count, um
+REACH = 1.1                                  # gaps that count, um
 
 
 def log_table(path):
@@ -55,12 +56,15 @@ def log_table(path):
     return dict(zip(names, np.array(rows, dtype=float).T))
 
 
-def gaps(folder, cells):
+def box(log):
+    """Lengths of the box of a LAMMPS log."""
+    return np.array(re.search(r"^Created orthogonal box = \(.*\) to \((.*)\)", log, re.MULTILINE)[1].split(), float)
+
+
+def gaps(folder, lengths):
     """Least distances of neighboring cells in all files of surfaces, 0 where they cut each
     other."""
-    edge = (cells * VOLUME / HEMATOCRIT / GAP)**0.5
-    return [pair_distances(read_cells(name), np.array([edge, edge, GAP]), (True, True, False), REACH)
-            for _, name in surfaces(folder)]
+    return [pair_distances(read_cells(name), lengths, (True, True, False), REACH) for _, name in surfaces(folder)]
 
 
 def aggregate_sizes(path):
@@ -74,7 +78,8 @@ def aggregate_sizes(path):
 
 
 def measure(folder):
-    cells = int(re.search(r"^Created (\d+) cells", (folder / "log.lammps").read_text(encoding="utf-8"), re.MULTILINE)[1])
+    log = (folder / "log.lammps").read_text(encoding="utf-8")
+    cells = int(re.search(r"^Created (\d+) cells", log, re.MULTILINE)[1])
     table, history = log_table(folder / "log.lammps"), read_ave_time(folder / "cell.dat")
     strain, steps = table["v_sheared"], table["Step"]
     start = min(SETTLED, strain[-1] / 2)
@@ -83,14 +88,15 @@ def measure(folder):
     classes = mean_classes(folder / "classes.dat", steps[late][0])
     sizes = np.concatenate([aggregate_sizes(name) for step, name in surfaces(folder)
                             if np.interp(step, steps, strain) >= start])
-    pairs = gaps(folder, cells)
+    pairs = gaps(folder, box(log))
     pairs = pairs[1:] or pairs    # without the packing at the start
     return {
-        "cells": cells, "strain": strain[-1], "viscosity": table["v_relative"][late].mean(), "classes": classes,
+        "cells": cells, "strain": strain[-1], "viscosity": table["v_relative"][late].mean(),
+        "core_seconds": float((folder / SECONDS).read_text(encoding="utf-8")), "classes": classes,
         "median": np.median(sizes[sizes > 1]), "of_cells": np.median(np.repeat(sizes, sizes)),
         "singles": classes.aggregates[0] / cells,
         "mean": cells / table["c_agg[1]"][late].mean(), "largest": table["c_agg[4]"][late].mean(),
-        "lost": cells - volumes.shape[1], "volume": abs(volumes / volumes[0] - 1).max(),
+        "hematocrit": table["v_filled"].min(), "again": table["f_ib[8]"][-1], "lost": cells - volumes.shape[1], "volume": abs(volumes / volumes[0] - 1).max(),
         "least": min(p.min() for p in pairs), "cut": sum(int((p == 0).sum()) for p in pairs),
         "pairs": np.concatenate(pairs), "history": (strain, table["v_relative"]),
     }
@@ -114,7 +120,7 @@ def draw(cases, pictures, path):
     bars = [name for name in cases if name[0] == "a"]
     for name, case in cases.items():
         color, line = COLORS[RATES.index(int(name[1:]))], "-" if name[0] == "a" else "--"
-        label = f"{name[1:]} /s, {NAMES[name[0]]}"
+        label = f"{name[1:]} /s, {WORDS[name[0]]}"
         axes["viscosity"].plot(*case["history"], line, color=color, label=label)
         counts, edges = np.histogram(case["pairs"], np.arange(0, REACH + 0.01, 0.04))
         axes["gaps"].stairs(100 * counts / counts.sum(), edges, color=color, linestyle=line, label=label)
@@ -133,32 +139,46 @@ def draw(cases, pictures, path):
     figure.savefig(path, dpi=110)
 
 
-def main():
-    parser = example_study.options(__doc__, [f"{kind}{rate}" for kind in KINDS for rate in RATES])
+def run_case(arguments, name, folder):
+    """Runs in.suspension in a folder, which keeps the seconds of processors that it took."""
+    folder.mkdir(parents=True, exist_ok=True)
+    before = example_study.processor_seconds()
+    done = example_study.run_script(arguments, HERE / "in.suspension", folder, {
+        "rate": name[1:], "sigma": KINDS[name[0]], "cells": arguments.cells, "shape": arguments.shape,
+        "dx": arguments.dx, "kernel": arguments.kernel}, log="log.lammps")
+    (folder / SECONDS).write_text(f"{example_study.processor_seconds() - before:.1f}\n", encoding="utf-8")
+    print(name, *re.findall(r"^(?:ERROR|WARNING).*", done.stdout, re.MULTILINE), sep="\n", flush=True)
+
+
+def draw_cells(folder):
+    """Path of a picture of the last surfaces in a folder."""
+    path = folder / "last.png"
+    subprocess.run([sys.executable, SCRIPTS / "render_cells.py", surfaces(folder)[-1][1], "-o", path,
+                    "--color", "aggregate", "--view", "20", "15", "--size", "900x900", "--zoom", "1.2"], check=True)
+    return path
+
+
+def options():
+    parser = example_study.options(__doc__, NAMES)
     example_study.add_runs_folder(parser)
     parser.add_argument("--cells", type=int, default=512)
-    arguments = command_line.parse(parser, HERE)
-    arguments.folder = example_study.runs_folder(arguments)
-    cases, pictures = {}, {}
-    for kind, work in KINDS.items():
-        for rate in RATES:
-            name, folder = f"{kind}{rate}", arguments.folder / f"{kind}{rate}"
-            if not (folder / "log.lammps").exists():
-                if not example_study.wanted(arguments, name):
-                    continue
-                folder.mkdir(parents=True, exist_ok=True)
-                command = [arguments.lmp, "-in", HERE / "in.suspension", "-var", "templates", example_study.POTENTIALS,
-                           "-var", "rate", str(rate), "-var", "sigma", str(work), "-var", "cells", str(arguments.cells)]
-                if arguments.ranks > 1:
-                    command = ["mpirun", "-np", str(arguments.ranks), *command]
-                subprocess.run(command, cwd=folder, check=False, stdout=subprocess.DEVNULL)
-            cases[name] = measure(folder)
-            print(name, {key: value for key, value in cases[name].items() if np.isscalar(value)}, flush=True)
-            if kind == "a":
-                pictures[str(rate)] = folder / "last.png"
-                subprocess.run([sys.executable, SCRIPTS / "render_cells.py", surfaces(folder)[-1][1], "-o", pictures[str(rate)],
-                                "--color", "aggregate", "--view", "20", "15", "--size", "900x900", "--zoom", "1.2"],
-                               check=True)
+    parser.add_argument("--shape", default="rbc_162")
+    parser.add_argument("--dx", type=float, default=0.8)
+    parser.add_argument("--kernel", default="roma3")
+    return parser
+
+
+def main():
+    arguments = command_line.parse(options(), HERE)
+    folder = example_study.runs_folder(arguments)
+    for name in NAMES:
+        if example_study.wanted(arguments, name) and not (folder / name / "log.lammps").exists():
+            run_case(arguments, name, folder / name)
+    names = [name for name in NAMES if (folder / name / "log.lammps").exists()]
+    cases = {name: measure(folder / name) for name in names}
+    for name, case in cases.items():
+        print(name, {key: value for key, value in case.items() if np.isscalar(value)}, flush=True)
+    pictures = {name[1:]: draw_cells(folder / name) for name in names if name[0] == "a"}
     write(cases, arguments.output / "suspension.csv")
     draw(cases, pictures, arguments.output / "suspension.png")
 
