@@ -40,7 +40,8 @@ WORDS = {"a": "adhesive", "r": "repulsive"}
 NAMES = [f"{kind}{rate}" for kind in KINDS for rate in RATES]
 SECONDS = "core_seconds.txt"                 # in the folder of a run
 SETTLED = 10                                 # strain from which means are taken
-REACH = 1.1                                  # gaps that count, um
+REACH = 0.6                                  # gaps that count, um
+PICTURES = 4                                 # of each run in which gaps are looked for
 
 
 def log_table(path):
@@ -62,9 +63,11 @@ def box(log):
 
 
 def gaps(folder, lengths):
-    """Least distances of neighboring cells in all files of surfaces, 0 where they cut each
-    other."""
-    return [pair_distances(read_cells(name), lengths, (True, True, False), REACH) for _, name in surfaces(folder)]
+    """Least distances of neighboring cells in PICTURES files of surfaces, 0 where they cut each
+    other; without that of the packing at the start if there are others."""
+    files = surfaces(folder)[1:] or surfaces(folder)
+    chosen = np.unique(np.linspace(len(files) - 1, 0, PICTURES, endpoint=False).round().astype(int))
+    return [pair_distances(read_cells(files[n][1]), lengths, (True, True, False), REACH) for n in chosen]
 
 
 def aggregate_sizes(path):
@@ -77,33 +80,41 @@ def aggregate_sizes(path):
     return np.unique(cells[1], return_counts=True)[1]
 
 
+def aggregate_statistics(folder, cells, table, start):
+    """Sizes of aggregates from a strain of `start` on."""
+    strain, steps = table["v_sheared"], table["Step"]
+    late = strain >= start
+    classes = mean_classes(folder / "classes.dat", steps[late][0])
+    shares = classes.fractions(False)
+    sizes = np.concatenate([aggregate_sizes(name) for step, name in surfaces(folder)
+                            if np.interp(step, steps, strain) >= start])
+    return {
+        "classes": classes, "median": np.median(sizes[sizes > 1]) if (sizes > 1).any() else np.nan,
+        "of_cells": np.median(np.repeat(sizes, sizes)),
+        "of_2_or_3": shares[classes.edges == 2].sum(), "of_4_to_7": shares[classes.edges == 4].sum(),
+        "mean": cells / table["c_agg[1]"][late].mean(), "largest": table["c_agg[4]"][late].mean(),
+        "singles": classes.aggregates[0] / cells}
+
+
 def measure(folder):
     log = (folder / "log.lammps").read_text(encoding="utf-8")
     cells = int(re.search(r"^Created (\d+) cells", log, re.MULTILINE)[1])
-    table, history = log_table(folder / "log.lammps"), read_ave_time(folder / "cell.dat")
-    strain, steps = table["v_sheared"], table["Step"]
+    table, volumes = log_table(folder / "log.lammps"), read_ave_time(folder / "cell.dat").column(6)
+    strain = table["v_sheared"]
     start = min(SETTLED, strain[-1] / 2)
-    late = strain >= start
-    volumes = history.column(6)
-    classes = mean_classes(folder / "classes.dat", steps[late][0])
-    sizes = np.concatenate([aggregate_sizes(name) for step, name in surfaces(folder)
-                            if np.interp(step, steps, strain) >= start])
     pairs = gaps(folder, box(log))
-    pairs = pairs[1:] or pairs    # without the packing at the start
     return {
-        "cells": cells, "strain": strain[-1], "viscosity": table["v_relative"][late].mean(),
-        "core_seconds": float((folder / SECONDS).read_text(encoding="utf-8")), "classes": classes,
-        "median": np.median(sizes[sizes > 1]), "of_cells": np.median(np.repeat(sizes, sizes)),
-        "singles": classes.aggregates[0] / cells,
-        "mean": cells / table["c_agg[1]"][late].mean(), "largest": table["c_agg[4]"][late].mean(),
-        "hematocrit": table["v_filled"].min(), "again": table["f_ib[8]"][-1], "lost": cells - volumes.shape[1], "volume": abs(volumes / volumes[0] - 1).max(),
-        "least": min(p.min() for p in pairs), "cut": sum(int((p == 0).sum()) for p in pairs),
+        "cells": cells, "strain": strain[-1], "hematocrit": table["v_filled"].min(),
+        "core_seconds": float((folder / SECONDS).read_text(encoding="utf-8")), "again": table["f_ib[8]"][-1],
+        "viscosity": table["v_relative"][strain >= start].mean(), **aggregate_statistics(folder, cells, table, start),
+        "lost": cells - volumes.shape[1], "volume": abs(volumes / volumes[0] - 1).max(),
+        "pictures": len(pairs), "least": min(p.min() for p in pairs), "cut": sum(int((p == 0).sum()) for p in pairs),
         "pairs": np.concatenate(pairs), "history": (strain, table["v_relative"]),
     }
 
 
 def write(cases, path):
-    columns = "cells", "strain", "viscosity", "median", "of_cells", "mean", "largest", "singles", "lost", "volume", "least", "cut"
+    columns = [name for name, value in next(iter(cases.values())).items() if np.isscalar(value)]
     with open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["case", *columns])
