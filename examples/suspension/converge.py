@@ -30,11 +30,11 @@ from study import KINDS, WORDS  # noqa: E402
 
 KERNELS = "roma3", "peskin4"
 SCENES = "r100", "r10", "a100", "a10", "r60", "a60"
-COARSE = ("rbc_162", 0.8), ("rbc_162", 0.65), ("rbc_362", 0.65), ("rbc_642", 0.5)    # mesh, dx in um
-FINE = ("rbc_1442", 0.35), ("rbc_2562", 0.25)                                         # with the first kernel only
-VOLUMES = {"rbc_162": 89.30, "rbc_362": 91.90, "rbc_642": 92.84, "rbc_1442": 93.52, "rbc_2562": 93.75}    # as meshed, um^3
+COARSE = ("rbc_162", 0.8), ("rbc_162", 0.65), ("rbc_362", 0.65), ("rbc_642", 0.5)    # dx in um
+FINE = ("rbc_1442", 0.35), ("rbc_2562", 0.25)             # with the first kernel only
+VOLUMES = {"rbc_162": 89.30, "rbc_362": 91.90, "rbc_642": 92.84, "rbc_1442": 93.52,
+           "rbc_2562": 93.75}                             # of cells as meshed, um^3
 SEEDS = 4712, 4713, 4714, 4715
-ORDER = 2                                                                             # of errors in dx, at least
 SEEDED = "r100", "roma3", "rbc_162", 0.8
 SMALL_BOX = {"cells": 32, "gap": 15, "strain": 5, "frames": 1000000}
 
@@ -43,9 +43,11 @@ def made_templates(folder):
     """The folder of templates, with those that the package does not ship."""
     templates = folder / "templates"
     if not templates.exists():
-        shutil.copytree(TOP / "potentials", templates, ignore=shutil.ignore_patterns("*.py", "__pycache__"))
-        subprocess.run([TOP / "potentials" / "make_template.py", "disc", "--diameter", "7.82", "--frequency", "12",
-                        "--output", templates / "rbc_1442.mol"], check=True, stdout=subprocess.DEVNULL)
+        shutil.copytree(TOP / "potentials", templates,
+                        ignore=shutil.ignore_patterns("*.py", "__pycache__"))
+        subprocess.run([TOP / "potentials" / "make_template.py", "disc", "--diameter", "7.82",
+                        "--frequency", "12", "--output", templates / "rbc_1442.mol"], check=True,
+                       stdout=subprocess.DEVNULL)
     return templates
 
 
@@ -54,8 +56,8 @@ def label(scene, kernel, shape, dx):
 
 
 def variables(scene, kernel, shape, dx):
-    return {"sigma": KINDS[scene[0]], "rate": scene[1:], "kernel": kernel, "shape": shape, "volume": VOLUMES[shape],
-            "dx": dx}
+    return {"sigma": KINDS[scene[0]], "rate": scene[1:], "kernel": kernel, "shape": shape,
+            "volume": VOLUMES[shape], "dx": dx}
 
 
 def cases():
@@ -65,26 +67,32 @@ def cases():
     for seed in SEEDS:
         yield "seeds", f"{label(*SEEDED)} {seed}", {**variables(*SEEDED), "seed": seed}
     for (shape, dx), scene in itertools.product(FINE, SCENES):
-        yield f"{scene}-fine", label(scene, KERNELS[0], shape, dx), variables(scene, KERNELS[0], shape, dx)
+        run = scene, KERNELS[0], shape, dx
+        yield f"{scene}-fine", label(*run), variables(*run)
 
 
-def run(arguments, templates):
+def run_all(arguments):
     """{label: rows of COLUMNS}."""
-    return example_study.run_cases(
-        arguments, arguments.output / "convergence.csv", COLUMNS, cases(),
-        lambda arguments, variables: measure_viscosity(arguments, HERE / "in.suspension", {**SMALL_BOX, **variables},
-                                                       templates))
+    templates = made_templates(arguments.output)
+
+    def measure(arguments, changed):
+        return measure_viscosity(arguments, HERE / "in.suspension", {**SMALL_BOX, **changed},
+                                 templates)
+
+    return example_study.run_cases(arguments, arguments.output / "convergence.csv", COLUMNS,
+                                   cases(), measure)
 
 
 def runs_of(table, scene):
     """{kernel: {(shape, dx): (viscosity, seconds)}} of the runs that there are."""
-    return {kernel: {(shape, dx): table[label(scene, kernel, shape, dx)][-1] for shape, dx in COARSE + FINE
-                     if label(scene, kernel, shape, dx) in table} for kernel in KERNELS}
+    return {kernel: {(shape, dx): table[label(scene, kernel, shape, dx)][-1]
+                     for shape, dx in COARSE + FINE if label(scene, kernel, shape, dx) in table}
+            for kernel in KERNELS}
 
 
 def limit(runs):
-    """Viscosity at dx = 0: that of the two finest grids of the first kernel, less errors in proportion
-    to ORDER of dx; NaN where there are not two of them."""
+    """Viscosity at dx = 0: that of the two finest grids of the first kernel, less errors that are
+    of ORDER in dx; NaN where there are not two of them."""
     points = sorted((dx, viscosity) for (_, dx), (viscosity, _) in runs[KERNELS[0]].items())
     (fine, value), (coarse, other) = points[:2] if len(points) > 1 else [(1, np.nan), (2, np.nan)]
     return value - (other - value) / ((coarse / fine)**ORDER - 1)
@@ -95,37 +103,44 @@ def entry(run, exact):
     if run is None:
         return "-"
     viscosity, seconds = run
-    error = "" if np.isnan(exact) else f"{100 * (viscosity / exact - 1):+.1f} %, "
-    return f"{viscosity:.2f}, {error}{seconds:.0f} s"
+    return f"{viscosity:.2f}, {100 * (viscosity / exact - 1):+.1f} %, {seconds:.0f} s"
 
 
 def print_table(table):
     runs = {scene: runs_of(table, scene) for scene in SCENES}
-    print("| vertices, dx (um) | kernel |", *(f"{scene[1:]} /s, {WORDS[scene[0]]} |" for scene in SCENES))
-    print("|---|---|" + "---|" * len(SCENES))
+    scenes = [scene for scene in SCENES if np.isfinite(limit(runs[scene]))]
+    print("| vertices, dx (µm) | kernel |",
+          *(f"{scene[1:]} /s, {WORDS[scene[0]]} |" for scene in scenes))
+    print("|---|---|" + "---|" * len(scenes))
     for (shape, dx), kernel in itertools.product(COARSE + FINE, KERNELS):
-        entries = [entry(runs[scene][kernel].get((shape, dx)), limit(runs[scene])) for scene in SCENES]
+        entries = [entry(runs[scene][kernel].get((shape, dx)), limit(runs[scene]))
+                   for scene in scenes]
         if set(entries) != {"-"}:
-            print(f"| {shape.removeprefix('rbc_')}, {dx:g} | *{kernel}* |", *(f"{text} |" for text in entries))
-    print("| extrapolated | |", *(f"{limit(runs[scene]):.2f} |" for scene in SCENES))
+            print(f"| {shape.removeprefix('rbc_')}, {dx:g} | *{kernel}* |",
+                  *(f"{text} |" for text in entries))
+    print("| extrapolated | |", *(f"{limit(runs[scene]):.2f} |" for scene in scenes))
 
 
 def draw(table, path):
     """Error against seconds, a panel for each scene of which there is a limit."""
     scenes = [scene for scene in SCENES if np.isfinite(limit(runs_of(table, scene)))]
-    figure, axes = plt.subplots(1, len(scenes), figsize=(3.4 * len(scenes), 3.6), sharey=True, layout="constrained",
-                                squeeze=False)
+    figure, axes = plt.subplots(1, len(scenes), figsize=(3.4 * len(scenes), 3.6), sharey=True,
+                                layout="constrained", squeeze=False)
     for scene, panel in zip(scenes, axes[0]):
         runs = runs_of(table, scene)
         exact = limit(runs)
         for kernel, line in zip(KERNELS, ("o-", "s--")):
-            points = {key: (seconds, 100 * (viscosity / exact - 1)) for key, (viscosity, seconds) in runs[kernel].items()}
+            points = {key: (seconds, 100 * (viscosity / exact - 1))
+                      for key, (viscosity, seconds) in runs[kernel].items()}
+            if not points:
+                continue
             panel.plot(*np.array(list(points.values())).T, line, label=kernel)
             for (shape, dx), at in points.items():
-                panel.annotate(f"{shape.removeprefix('rbc_')}, {dx:g}", at, xytext=(4, 4), textcoords="offset points",
-                               fontsize=7)
+                panel.annotate(f"{shape.removeprefix('rbc_')}, {dx:g}", at, xytext=(4, 4),
+                               textcoords="offset points", fontsize=7)
         panel.axhspan(-5, 5, color="0.9", zorder=0)
-        panel.set(title=f"{scene[1:]} /s, {WORDS[scene[0]]}", xlabel="core seconds", xscale="log")
+        panel.set(title=f"{scene[1:]} /s, {WORDS[scene[0]]}", xlabel="core seconds",
+                  xscale="log", xlim=(4, 500))
     axes[0][0].set_ylabel("error of the viscosity (%)")
     axes[0][0].legend(frameon=False)
     figure.savefig(path, dpi=110)
@@ -134,7 +149,7 @@ def draw(table, path):
 def main():
     series = [*SCENES, *(f"{scene}-fine" for scene in SCENES), "seeds"]
     arguments = command_line.parse(example_study.options(__doc__, series), HERE)
-    table = run(arguments, made_templates(arguments.output))
+    table = run_all(arguments)
     print_table(table)
     draw(table, arguments.output / "convergence.png")
 

@@ -38,6 +38,7 @@ RATES = 10, 60, 100                          # 1/s
 KINDS = {"a": 2.0e-4, "r": 0.0}              # work of adhesion, mJ/m^2
 WORDS = {"a": "adhesive", "r": "repulsive"}
 NAMES = [f"{kind}{rate}" for kind in KINDS for rate in RATES]
+OPTIONS = "cells", "shape", "volume", "dx", "kernel"    # of this script that the input takes
 SECONDS = "core_seconds.txt"                 # in the folder of a run
 SETTLED = 10                                 # strain from which means are taken
 REACH = 0.6                                  # gaps that count, um
@@ -59,7 +60,8 @@ def log_table(path):
 
 def box(log):
     """Lengths of the box of a LAMMPS log."""
-    return np.array(re.search(r"^Created orthogonal box = \(.*\) to \((.*)\)", log, re.MULTILINE)[1].split(), float)
+    corner = re.search(r"^Created orthogonal box = \(0 0 0\) to \((.*)\)", log, re.MULTILINE)[1]
+    return np.array(corner.split(), float)
 
 
 def gaps(folder, lengths):
@@ -67,7 +69,8 @@ def gaps(folder, lengths):
     other; without that of the packing at the start if there are others."""
     files = surfaces(folder)[1:] or surfaces(folder)
     chosen = np.unique(np.linspace(len(files) - 1, 0, PICTURES, endpoint=False).round().astype(int))
-    return [pair_distances(read_cells(files[n][1]), lengths, (True, True, False), REACH) for n in chosen]
+    return [pair_distances(read_cells(files[n][1]), lengths, (True, True, False), REACH)
+            for n in chosen]
 
 
 def aggregate_sizes(path):
@@ -89,9 +92,11 @@ def aggregate_statistics(folder, cells, table, start):
     sizes = np.concatenate([aggregate_sizes(name) for step, name in surfaces(folder)
                             if np.interp(step, steps, strain) >= start])
     return {
-        "classes": classes, "median": np.median(sizes[sizes > 1]) if (sizes > 1).any() else np.nan,
+        "classes": classes,
+        "median": np.median(sizes[sizes > 1]) if (sizes > 1).any() else np.nan,
         "of_cells": np.median(np.repeat(sizes, sizes)),
-        "of_2_or_3": shares[classes.edges == 2].sum(), "of_4_to_7": shares[classes.edges == 4].sum(),
+        "of_2_or_3": shares[classes.edges == 2].sum(),
+        "of_4_to_7": shares[classes.edges == 4].sum(),
         "mean": cells / table["c_agg[1]"][late].mean(), "largest": table["c_agg[4]"][late].mean(),
         "singles": classes.aggregates[0] / cells}
 
@@ -105,10 +110,12 @@ def measure(folder):
     pairs = gaps(folder, box(log))
     return {
         "cells": cells, "strain": strain[-1], "hematocrit": table["v_filled"].min(),
-        "core_seconds": float((folder / SECONDS).read_text(encoding="utf-8")), "again": table["f_ib[8]"][-1],
-        "viscosity": table["v_relative"][strain >= start].mean(), **aggregate_statistics(folder, cells, table, start),
+        "core_seconds": float((folder / SECONDS).read_text(encoding="utf-8")),
+        "again": table["f_ib[8]"][-1], "viscosity": table["v_relative"][strain >= start].mean(),
+        **aggregate_statistics(folder, cells, table, start),
         "lost": cells - volumes.shape[1], "volume": abs(volumes / volumes[0] - 1).max(),
-        "pictures": len(pairs), "least": min(p.min() for p in pairs), "cut": sum(int((p == 0).sum()) for p in pairs),
+        "pictures": len(pairs), "least": min(p.min() for p in pairs),
+        "cut": sum(int((p == 0).sum()) for p in pairs),
         "pairs": np.concatenate(pairs), "history": (strain, table["v_relative"]),
     }
 
@@ -154,18 +161,22 @@ def run_case(arguments, name, folder):
     """Runs in.suspension in a folder, which keeps the seconds of processors that it took."""
     folder.mkdir(parents=True, exist_ok=True)
     before = example_study.processor_seconds()
-    done = example_study.run_script(arguments, HERE / "in.suspension", folder, {
-        "rate": name[1:], "sigma": KINDS[name[0]], "cells": arguments.cells, "shape": arguments.shape,
-        "dx": arguments.dx, "kernel": arguments.kernel}, log="log.lammps")
-    (folder / SECONDS).write_text(f"{example_study.processor_seconds() - before:.1f}\n", encoding="utf-8")
-    print(name, *re.findall(r"^(?:ERROR|WARNING).*", done.stdout, re.MULTILINE), sep="\n", flush=True)
+    variables = {"rate": name[1:], "sigma": KINDS[name[0]],
+                 **{name: getattr(arguments, name) for name in OPTIONS}}
+    done = example_study.run_script(arguments, HERE / "in.suspension", folder, variables,
+                                    log="log.lammps")
+    seconds = example_study.processor_seconds() - before
+    (folder / SECONDS).write_text(f"{seconds:.1f}\n", encoding="utf-8")
+    said = re.findall(r"^(?:ERROR|WARNING).*", done.stdout, re.MULTILINE)
+    print(name, *said, sep="\n", flush=True)
 
 
 def draw_cells(folder):
     """Path of a picture of the last surfaces in a folder."""
     path = folder / "last.png"
-    subprocess.run([sys.executable, SCRIPTS / "render_cells.py", surfaces(folder)[-1][1], "-o", path,
-                    "--color", "aggregate", "--view", "20", "15", "--size", "900x900", "--zoom", "1.2"], check=True)
+    subprocess.run([sys.executable, SCRIPTS / "render_cells.py", surfaces(folder)[-1][1],
+                    "-o", path, "--color", "aggregate", "--view", "20", "15", "--size", "900x900",
+                    "--zoom", "1.2"], check=True)
     return path
 
 
@@ -174,6 +185,7 @@ def options():
     example_study.add_runs_folder(parser)
     parser.add_argument("--cells", type=int, default=512)
     parser.add_argument("--shape", default="rbc_162")
+    parser.add_argument("--volume", type=float, default=89.30, help="of the shape as meshed, um^3")
     parser.add_argument("--dx", type=float, default=0.8)
     parser.add_argument("--kernel", default="roma3")
     return parser
