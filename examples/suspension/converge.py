@@ -34,6 +34,7 @@ COARSE = ("rbc_162", 0.8), ("rbc_162", 0.65), ("rbc_362", 0.65), ("rbc_642", 0.5
 FINE = ("rbc_1442", 0.35), ("rbc_2562", 0.25)             # with the first kernel only
 VOLUMES = {"rbc_162": 89.30, "rbc_362": 91.90, "rbc_642": 92.84, "rbc_1442": 93.52,
            "rbc_2562": 93.75}                             # of cells as meshed, um^3
+ORDER = 2                                                 # of errors in dx, at least
 SEEDS = 4712, 4713, 4714, 4715
 SEEDED = "r100", "roma3", "rbc_162", 0.8
 SMALL_BOX = {"cells": 32, "gap": 15, "strain": 5, "frames": 1000000}
