@@ -37,6 +37,7 @@ VOLUMES = {"rbc_162": 89.30, "rbc_362": 91.90, "rbc_642": 92.84, "rbc_1442": 93.
 ORDER = 2                                                 # of errors in dx, at least
 SEEDS = 4712, 4713, 4714, 4715
 SEEDED = "r100", "roma3", "rbc_162", 0.8
+COLUMNS_OF_PANELS = 3
 SMALL_BOX = {"cells": 32, "gap": 15, "strain": 5, "frames": 1000000}
 
 
@@ -125,9 +126,10 @@ def print_table(table):
 def draw(table, path):
     """Error against seconds, a panel for each scene of which there is a limit."""
     scenes = [scene for scene in SCENES if np.isfinite(limit(runs_of(table, scene)))]
-    figure, axes = plt.subplots(1, len(scenes), figsize=(3.4 * len(scenes), 3.6), sharey=True,
+    rows = -(-len(scenes) // COLUMNS_OF_PANELS)
+    figure, axes = plt.subplots(rows, COLUMNS_OF_PANELS, figsize=(12, 3.6 * rows), sharey=True,
                                 layout="constrained", squeeze=False)
-    for scene, panel in zip(scenes, axes[0]):
+    for scene, panel in zip(scenes, axes.flat):
         runs = runs_of(table, scene)
         exact = limit(runs)
         for kernel, line in zip(KERNELS, ("o-", "s--")):
@@ -142,7 +144,8 @@ def draw(table, path):
         panel.axhspan(-5, 5, color="0.9", zorder=0)
         panel.set(title=f"{scene[1:]} /s, {WORDS[scene[0]]}", xlabel="core seconds",
                   xscale="log", xlim=(4, 500))
-    axes[0][0].set_ylabel("error of the viscosity (%)")
+    for panel in axes[:, 0]:
+        panel.set_ylabel("error of the viscosity (%)")
     axes[0][0].legend(frameon=False)
     figure.savefig(path, dpi=110)
 
