@@ -35,6 +35,7 @@ EXAMPLES = {
     "capsule-channel": dict(shape="capsule_642", cells=10, length=4),
     "capsule-shear": dict(shape="capsule_162", dx=0.25, length=5, gap=5),
     "cell-statistics": dict(cells=4),
+    "contrast": dict(shape="capsule_162", dx=0.25, length=5, gap=5),
     "doublet": dict(shape="rbc_162", dx=1.0),
     "fahraeus": dict(diameter=12, length=9.6, hematocrit=0.16, shape="rbc_162", dx=0.8),
     "relaxation": dict(shape="rbc_162", patch=3.3, dx=1, width=12, timestep=2000),

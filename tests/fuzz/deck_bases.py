@@ -29,6 +29,7 @@ EXAMPLES = {
     "capsule-channel": dict(CAPSULE, cells=5, length=4, ratio=0.6),
     "capsule-shear": dict(CAPSULE, dx=0.5, length=4, gap=4),
     "cell-statistics": dict(PACKED, cells=2),
+    "contrast": dict(CAPSULE, dx=0.5, length=4, gap=4),
     "doublet": dict(CELL),
     "fahraeus": dict(SMALL_BLOOD, diameter=10, length=10),
     "relaxation": dict(CELL),
@@ -44,7 +45,7 @@ EXAMPLES = {
     "tube-poiseuille": dict(SMALL_BLOOD, diameter=10, length=10),
 }
 
-MATERIALS = {"capsule-shear": "capsule", "stiff": "paper-table2"}
+MATERIALS = {"capsule-shear": "capsule", "contrast": "capsule", "stiff": "paper-table2"}
 
 # Examples with parts to choose from: their folder, and the conditions of jumps that are true.
 PARTS = {

@@ -1,0 +1,250 @@
+#!/usr/bin/python3
+"""Error of a capsule of another viscosity inside against grid spacing, box and run time.
+
+Runs in.contrast for a list of cases, writes contrast.csv to a folder, compares deformation and
+inclination with the boundary-element results of examples/reference and with the theory of small
+deformation, and draws contrast.png. Cases that its contrast.csv already holds are not run again.
+
+study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--only contrast] [--ranks 1]
+"""
+import os
+import re
+import resource
+import sys
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts"))
+import command_line  # noqa: E402
+import numpy as np  # noqa: E402
+from example_study import options, run_cases, run_script  # noqa: E402
+from read_ave_time import read_ave_time, read_csv  # noqa: E402
+
+REFERENCE = os.path.join(HERE, "..", "reference", "02j_capsule_shear_BEM_contrast_transient.csv")
+COLUMNS = ["t", "D", "inclination", "iterations", "solves", "core_seconds"]
+T, D, INCLINATION, ITERATIONS, SOLVES, SECONDS = range(len(COLUMNS))
+TIMESTEP = 0.02    # of in.contrast
+RATIOS = (1, 2, 5, 10)
+SMALL_RATIOS = (0.2, 1, 5)
+SMALL = dict(Ca=0.01, timestep=0.01, strain=1.2, integrator="rkc auto")
+LATE = 0.75    # strain from which a small deformation is steady
+# Vertices by cells a radius: edges of 0.8 to 1.2 spacings.
+SHAPES = {4: "capsule_362", 6: "capsule_642", 8: "capsule_642", 12: "capsule_2562"}
+TOLERANCES = {1e-3: "tol 0.001", 1e-6: "tol 1e-06"}    # beside that of in.contrast
+HALF_STEP = "half timestep"
+CHOICE_SPACING = 4    # cells a radius in runs for tolerance and time step
+STRAINS = (0.5, 1, 1.5, 2)
+BASE_BOX = 8
+BOX_SPACING = 4    # cells a radius in runs that tell what the box does
+
+
+def label(series, inside, cells, box=BASE_BOX):
+    return f"{series} lambda {inside:g} dx 1/{cells} box {box}"
+
+
+def case(series, inside, cells, box=BASE_BOX, **others):
+    variables = dict(inside=inside, dx=1 / cells, shape=SHAPES[cells], length=box, gap=box)
+    return series, label(series, inside, cells, box), dict(variables, **others)
+
+
+def cases():
+    """(series, label, variables) of every run."""
+    for cells in (4, 6, 8):
+        for inside in RATIOS:
+            yield case("contrast", inside, cells)
+    for inside in RATIOS:
+        yield case("contrast", inside, BOX_SPACING, 12)
+    for inside in (1, 2):
+        yield case("contrast", inside, BOX_SPACING, 16)
+    for inside in (1, 10):
+        yield case("contrast", inside, 12)
+    for inside in (5, 10):
+        for tolerance, series in TOLERANCES.items():
+            yield case(series, inside, CHOICE_SPACING, tol=tolerance)
+        yield case(HALF_STEP, inside, CHOICE_SPACING, timestep=TIMESTEP / 2)
+    for inside in SMALL_RATIOS:
+        for cells, box in ((4, 8), (4, 12), (6, 8)):
+            yield case("small", inside, cells, box, **SMALL)
+    yield case("contrast", 5, 12)
+    for cells, box in ((4, 8), (4, 12), (6, 8)):
+        yield case("mooney", 5, cells, box, psi=0.5)
+
+
+def shape_rows(history, timestep):
+    """t, D and inclination of each output."""
+    axis = history.columns(11, 13)[:, 0]
+    angle = np.degrees(np.arctan2(axis[:, 2], axis[:, 0]))
+    return list(zip(history.steps * timestep, history.column(7)[:, 0], angle))
+
+
+def run(arguments, variables):
+    """A row of COLUMNS for each output of one run."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    with tempfile.TemporaryDirectory() as folder:
+        done = run_script(arguments, os.path.join(HERE, "in.contrast"), folder, variables)
+        done.check_returncode()
+        history = read_ave_time(os.path.join(folder, "cell.dat"))
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    solves = float(re.search(r"(\d+) solves in", done.stdout).group(1))
+    thermo = done.stdout.split("USER-RBC step cost")[0].rstrip().splitlines()
+    iterations = float(thermo[-1].split()[-2])
+    return [[*row, iterations, solves, seconds]
+            for row in shape_rows(history, variables.get("timestep", TIMESTEP))]
+
+
+def references(inside, law="neo-Hookean"):
+    """(t, D, inclination) of the boundary-element results at Ca = 0.3."""
+    names = "gdot_t", "D_ell", "inclination_deg"
+    return np.array([[float(row[name]) for name in names] for row in read_csv(REFERENCE)
+                     if row["law"] == law and float(row["lambda"]) == inside])
+
+
+def theory(inside, ca):
+    """D and inclination of a small deformation, arXiv 2602.15626; the inclination as derived in
+    the reference 02j."""
+    return 25 / 12 * ca, 45 - np.degrees(ca * (276 + 209 * inside) / 240)
+
+
+def at(table, name, time):
+    """D and inclination of a run at a time."""
+    rows = table[name]
+    return np.array([np.interp(time, rows[:, T], rows[:, column]) for column in (D, INCLINATION)])
+
+
+def spacings(table, series, inside):
+    """Cells a radius of the runs in the base box, coarsest first."""
+    return [cells for cells in SHAPES if label(series, inside, cells) in table]
+
+
+def box_change(table, series, inside, time):
+    """What an infinite box adds to D and inclination; images and plates act as 1/box^3."""
+    names = {box: label(series, inside, BOX_SPACING, box) for box in (8, 12, 16)}
+    boxes = np.array([box for box, name in names.items() if name in table])
+    values = np.array([at(table, names[box], time) for box in boxes])
+    return np.polyfit(boxes**-3.0, values, 1)[-1] - values[0]
+
+
+def extrapolated(table, series, inside, time):
+    """D and inclination at dx -> 0, by the two finest as of second order, in an infinite box."""
+    coarse, fine = spacings(table, series, inside)[-2:]
+    values = [at(table, label(series, inside, cells), time) for cells in (coarse, fine)]
+    limit = values[1] + (values[1] - values[0]) * coarse**2 / (fine**2 - coarse**2)
+    return limit + box_change(table, series, inside, time)
+
+
+def exact_at(inside, time, law="neo-Hookean"):
+    reference = references(inside, law)
+    return reference[np.isclose(reference[:, 0], time)][0][1:]
+
+
+def percent(errors):
+    return ", ".join(f"{100 * error:+.1f}" for error in errors) + " %"
+
+
+def report_transients(table, series, law, ratios):
+    """Error of the finest in a box of 8, and extrapolated."""
+    for inside in ratios:
+        finest = spacings(table, series, inside)[-1]
+        print(f"\n{law}, lambda {inside:g}: strain; D, error at dx = 1/{finest}, extrapolated; "
+              "the same of the inclination")
+        for time in STRAINS:
+            exact = exact_at(inside, time, law)
+            errors = [values / exact - 1 for values in
+                      (at(table, label(series, inside, finest), time),
+                       extrapolated(table, series, inside, time))]
+            columns = [f"{value:.{digits}f} | {percent([one])} | {percent([other])}"
+                       for value, digits, one, other in zip(exact, (4, 2), *errors)]
+            print(f"| {inside:g} | {time:g} | {' | '.join(columns)} |")
+
+
+def costs(last, timestep):
+    """Of a run with integrator midpoint, of which `last` is the last row."""
+    solves = last[SOLVES] / (2 * last[T] / timestep)
+    return f"{last[SECONDS]:.3g} | {last[ITERATIONS]:.1f} | {solves:.1f}"
+
+
+def report_costs(table):
+    print("\nlambda, dx: errors in an infinite box at strains 1 and 2 of D, of the inclination; "
+          "core seconds, iterations and solves per evaluation")
+    for inside in RATIOS:
+        for cells in spacings(table, "contrast", inside):
+            name = label("contrast", inside, cells)
+            values = [at(table, name, time) + box_change(table, "contrast", inside, time)
+                      for time in (1, 2)]
+            errors = np.array(values) / [exact_at(inside, time) for time in (1, 2)] - 1
+            print(f"| {inside:g} | 1/{cells} | {percent(errors[:, 0])} | {percent(errors[:, 1])} | "
+                  f"{costs(table[name][-1], TIMESTEP)} |")
+
+
+def late(table, name):
+    """The mean over the end of a run as its only row: vertices that pass the grid make D and
+    inclination swing."""
+    rows = table[name]
+    return rows[rows[:, T] > LATE].mean(axis=0, keepdims=True)
+
+
+def report_small(table):
+    print("\nCa = 0.01: lambda; D/Ca by dx in a box of 8, extrapolated, error; inclination by dx, "
+          "extrapolated, theory, error")
+    ca = SMALL["Ca"]
+    means = {name: late(table, name) for name in table if name.startswith("small")}
+    for inside in SMALL_RATIOS:
+        values = np.array([means[label("small", inside, cells)][-1, [D, INCLINATION]]
+                           for cells in spacings(means, "small", inside)])
+        limit = extrapolated(means, "small", inside, SMALL["strain"])
+        exact = theory(inside, ca)
+        print(f"| {inside:g} | {', '.join(f'{v / ca:.3f}' for v in values[:, 0])} | "
+              f"{limit[0] / ca:.3f} | {percent([limit[0] / exact[0] - 1])} | "
+              f"{', '.join(f'{v:.2f}' for v in values[:, 1])} | {limit[1]:.2f} | {exact[1]:.2f} | "
+              f"{percent([limit[1] / exact[1] - 1])} |")
+
+
+def report_choices(table):
+    print("\ndx = 1/4: lambda; D and inclination at strain 2; core seconds, iterations and solves "
+          "per evaluation")
+    for inside in (5, 10):
+        for series in ("contrast", *TOLERANCES.values(), HALF_STEP):
+            last = table[label(series, inside, CHOICE_SPACING)][-1]
+            timestep = TIMESTEP / 2 if series == HALF_STEP else TIMESTEP
+            print(f"| {inside:g} | {series} | {last[D]:.4f} | {last[INCLINATION]:.2f} | "
+                  f"{costs(last, timestep)} |")
+
+
+def plot(table, path):
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    figure, axes = plt.subplots(1, 2, figsize=(11, 4.5))
+    for inside in RATIOS:
+        reference = references(inside)
+        reference = reference[reference[:, 0] <= max(STRAINS)]
+        times = table[label("contrast", inside, BOX_SPACING)][1:, T]
+        limits = np.array([extrapolated(table, "contrast", inside, time) for time in times])
+        for axis, column in zip(axes, (0, 1)):
+            line, = axis.plot(times, limits[:, column], label=f"λ = {inside:g}")
+            axis.plot(reference[:, 0], reference[:, 1 + column], "o", color=line.get_color(),
+                      mfc="none")
+    for axis, name in zip(axes, ("Taylor deformation D", "inclination / degrees")):
+        axis.plot([], [], "o", color="0.4", mfc="none", label="boundary elements")
+        axis.set(xlabel="shear rate × time", ylabel=name, xlim=(0, None))
+        axis.legend()
+    figure.tight_layout()
+    figure.savefig(path, dpi=110)
+
+
+def main():
+    arguments = command_line.parse(options(__doc__, (series for series, *_ in cases())), HERE)
+    table = run_cases(arguments, arguments.output / "contrast.csv", COLUMNS, cases(), run)
+    if any(name not in table for _, name, _ in cases()):
+        return
+    report_transients(table, "contrast", "neo-Hookean", RATIOS)
+    report_transients(table, "mooney", "Mooney-Rivlin psi=0.5", [5])
+    report_costs(table)
+    report_small(table)
+    report_choices(table)
+    plot(table, arguments.output / "contrast.png")
+
+
+if __name__ == "__main__":
+    main()
