@@ -71,9 +71,9 @@ def cases():
         yield case("mooney", 5, cells, box, psi=0.5)
     for inside in RATIOS:
         yield case("contrast", inside, 12)
-    for cells, box in ((4, 8), (4, 12), (6, 8)):
-        yield case("long", 5, cells, box, strain=10)
     yield case("contrast", 10, 16)
+    for cells, box in ((4, 8), (4, 12), (6, 8), (8, 8)):
+        yield case("long", 5, cells, box, strain=10)
 
 
 def shape_rows(history, timestep):
