@@ -320,10 +320,14 @@ int Flow::find_inside(const MarkerSet &markers, const double *step, double mean,
   return outside;
 }
 
-int Flow::find_excess(const MarkerSet &markers, const double *step, double mean)
+int Flow::find_excess(const MarkerSet &markers, const double *step, double mean,
+                      const std::array<double, 2> &bounds)
 {
   if (!excess_.bytes()) excess_ = ScalarField(halo_.box());
   const int outside = find_inside(markers, step, mean, excess_);
+  for_each_cell(brick(), [&, excess = excess_[0]](int i, int j, int k) {
+    excess(i, j, k) = std::clamp(excess(i, j, k), bounds[0], bounds[1]);
+  });
   halo_.fill(excess_.views());
   return outside;
 }

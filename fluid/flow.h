@@ -31,9 +31,9 @@ class Flow {
   /// sheets the kernels must stay SheetVelocity::layers further inside. Not collective.
   int spread(const MarkerSet &markers, const double *force, double factor);
 
-  /// Adds the double layer of markers of this kind; without inertia. The velocity solved for is
-  /// then that times the relative viscosity, see DoubleLayer, and so is the mean velocity of the
-  /// forcing. Returns what spread does. Not collective.
+  /// Adds the double layer of markers of the kind layers; without inertia. The velocity solved for
+  /// is then that of the fluid times the relative viscosity, see DoubleLayer, and so is the mean
+  /// velocity of the forcing. Returns what spread does. Not collective.
   int spread(const MarkerSet &markers, const DoubleLayer &layer);
 
   /// Adds the ghosts' share of the force to its owners: the exchange between spread and solve.
@@ -85,8 +85,9 @@ class Flow {
                   const ScalarField &inside);
 
   /// Takes this function, for these double layers, as the relative viscosity less 1 that
-  /// fluid_velocity() needs.
-  int find_excess(const MarkerSet &markers, const double *step, double mean);
+  /// fluid_velocity() needs. Values beyond `bounds`, to which it overshoots, are cut off.
+  int find_excess(const MarkerSet &markers, const double *step, double mean,
+                  const std::array<double, 2> &bounds);
 
   /// Adds a uniform velocity, ghosts included: triply periodic and without inertia only, where no
   /// force drives the mean.

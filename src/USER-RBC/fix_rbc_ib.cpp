@@ -161,11 +161,12 @@ void FixRBCIB::init()
 
   std::vector<CellMembranes *> membranes = all_cell_membranes(lmp);
   const bool late_forces = check_order();
+  start_contrast(membranes);
   bool viscous = false, filled = false;
   for (CellMembranes *cells : membranes) {
     cells->report_to(markers->stop());
     if (cells->keeps_volume() || cells->is_viscous() || cells->is_smoothed() ||
-        cells->interior_viscosity() > 0)
+        contrast.acts_on(*cells))
       check_moves_all(*cells);
     viscous = viscous || cells->is_viscous();
     filled = filled || cells->interior_viscosity() > 0;
@@ -173,7 +174,6 @@ void FixRBCIB::init()
   if (viscous && flow->has_inertia())
     error->all(FLERR, "Fix rbc/ib {}: membranes with viscosity need fix rbc/fluid {} inertia none",
                id, fluid);
-  start_contrast(membranes);
   if (iterates && !masses && !viscous && !filled)
     error->all(FLERR, "Fix rbc/ib tol and maxiter need scheme direct or a fix rbc/membrane with "
                       "viscosity or interior");
@@ -237,6 +237,7 @@ void FixRBCIB::post_neighbor()
   markers->find_members();
   if (!masses) steps->atoms_migrated();
   if (slides_in_gaps()) gaps->atoms_migrated();
+  contrast.atoms_migrated();
 }
 
 /* ---------------------------------------------------------------------- */

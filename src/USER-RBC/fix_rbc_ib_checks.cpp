@@ -77,7 +77,7 @@ bool FixRBCIB::check_order() const
 /* ----------------------------------------------------------------------
    Keeping a cell's volume changes the velocities of all its vertices, and the viscosity of its
    membrane depends on them.  Smoothing passes forces from vertex to vertex: those that a wall holds
-   would keep their share from the fluid.
+   would keep their share from the fluid.  The double layer of a cell is that of a closed surface.
 ------------------------------------------------------------------------- */
 
 void FixRBCIB::check_moves_all(const CellMembranes &cells) const
@@ -85,17 +85,18 @@ void FixRBCIB::check_moves_all(const CellMembranes &cells) const
   int left_out = 0;
   int moved = groupbit;    // or held
   for (FluidClient *client : fluid_clients(modify))
-    if (client->wall_group() && !cells.is_smoothed()) moved |= client->wall_group()->groupbit();
+    if (client->wall_group() && !cells.is_smoothed() && !contrast.acts_on(cells))
+      moved |= client->wall_group()->groupbit();
   for (int i = 0; i < atom->nlocal; ++i)
     if ((atom->mask[i] & cells.groupbit()) && !(atom->mask[i] & moved)) left_out = 1;
   MPI_Allreduce(MPI_IN_PLACE, &left_out, 1, MPI_INT, MPI_MAX, world);
   if (left_out)
     error->all(FLERR, "Fix rbc/ib {} does not move all atoms of f{}, which {}", id,
                cells.style().substr(1),
-               cells.is_smoothed()    ? "smooths tractions"
-               : cells.keeps_volume() ? "keeps the volume of its cells"
-               : cells.is_viscous()   ? "has viscosity"
-                                      : "has a viscosity inside");
+               cells.is_smoothed()       ? "smooths tractions"
+               : contrast.acts_on(cells) ? "has another viscosity inside"
+               : cells.keeps_volume()    ? "keeps the volume of its cells"
+                                         : "has viscosity");
 }
 
 /* ---------------------------------------------------------------------- */

@@ -125,6 +125,29 @@ class Ranks(unittest.TestCase):
             self.assertGreater(np.sum(forces * moves), 0)
 
 
+class Steps(unittest.TestCase):
+    def test_flow_is_known_after_atoms_were_sorted(self):
+        # the velocities that end a step were found before LAMMPS gave the atoms other numbers
+        cell = "fix mem all rbc/membrane rbc mooney-rivlin 0.257 0.0257 0.01 bending 2.0e-4 interior 7.5"
+        for ranks in (1, 2):
+            result = run(scene(
+                style="atom_style molecular\natom_modify sort 1 1.0", membrane=cell,
+                neighbor="neighbor 1.0 bin\nneigh_modify every 1 delay 0 check no",
+                ib="fix ib all rbc/ib flow tol 1e-6 integrator rkc auto adapt 1e-3 200",
+                thermo="thermo_style custom step f_flow[1] f_flow[4] f_flow[7] f_flow[10]", every="thermo 5",
+                thermo_modify="thermo_modify format float %.17g", run="run 5\nrun 0"), ranks)
+            within, anew = result.tables()
+            for column in ("f_flow[1]", "f_flow[4]", "f_flow[7]", "f_flow[10]"):
+                np.testing.assert_allclose(within[column][-1], anew[column][-1], rtol=1e-4, err_msg=f"{column}, {ranks} ranks")
+
+    def test_a_viscous_inside_leaves_nothing_behind(self):
+        membrane = "fix mem all rbc/membrane rbc mooney-rivlin 0.257 0.0257 0.01 bending 2.0e-4"
+        again = f"unfix ib\nunfix mem\n{membrane}\n"
+        ib = "fix ib all rbc/ib flow integrator midpoint"
+        result = run(scene(membrane=membrane + " interior 7.5", run=f"run 2\n{again}{ib}\nrun 3"))
+        self.assertIn("6 solves in 3 steps", result.printed)
+
+
 class Alike(unittest.TestCase):
     def test_nothing_changes_where_the_viscosity_is_that_outside(self):
         forces = np.random.default_rng(1).normal(size=(COUNT, 3))
@@ -145,6 +168,9 @@ class Errors(unittest.TestCase):
         self.check("interior needs a fix rbc/ib", membrane=membrane + "7.5", ib="")
         self.check("needs fix rbc/ib ib with sheets yes", membrane=membrane + "7.5",
                    ib="fix ib all rbc/ib flow integrator midpoint sheets no")
+        self.check("which has another viscosity inside", membrane=membrane + "7.5",
+                   before="group held id 1", ib="fix wall held rbc/wall flow\ngroup free subtract all held\n"
+                   "fix ib free rbc/ib flow integrator midpoint")
         self.check("needs its inertia none", membrane=membrane + "7.5",
                    fluid="fix flow all rbc/fluid dx 1.0 viscosity 1.5 density 1.025 inertia unsteady wall zlo 0 0 0 wall zhi 0 0 0")
 

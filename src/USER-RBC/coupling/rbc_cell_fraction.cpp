@@ -15,6 +15,8 @@ const fluid::ScalarField &CellFraction::find(fluid::Flow &flow)
 {
   if (all_cell_membranes(lmp).empty() || modify->get_fix_by_style("^rbc/ib$").empty())
     error->all(FLERR, "Fix rbc/fluid grid data interior needs a fix rbc/membrane and a fix rbc/ib");
+  if (flow.equations().scheme == fluid::Scheme::projection)
+    error->all(FLERR, "Fix rbc/fluid grid data interior needs scheme coupled");
   if (!(share_.box() == flow.brick()) || !share_.bytes()) share_ = fluid::ScalarField(flow.brick());
   const fluid::Grid &grid = flow.grid();
   const double mean = total_volume() / (grid.cell_volume() * static_cast<double>(grid.size()));

@@ -180,10 +180,11 @@ int DrivenFlow::spread(const fluid::MarkerSet &markers, const fluid::DoubleLayer
   return outside;
 }
 
-int DrivenFlow::find_excess(const fluid::MarkerSet &markers, const double *step, double mean)
+int DrivenFlow::find_excess(const fluid::MarkerSet &markers, const double *step, double mean,
+                            const std::array<double, 2> &bounds)
 {
   solving_.start();
-  const int outside = flow_->find_excess(markers, step, mean);
+  const int outside = flow_->find_excess(markers, step, mean, bounds);
   solving_.stop();
   return outside;
 }

@@ -116,7 +116,8 @@ class DrivenFlow : public StepPart, protected Pointers {
              const std::array<double, 3> &excess);
 
   /// See fluid::Flow. Collective.
-  int find_excess(const fluid::MarkerSet &markers, const double *step, double mean);
+  int find_excess(const fluid::MarkerSet &markers, const double *step, double mean,
+                  const std::array<double, 2> &bounds);
 
   /// Computes the velocity of the fluid from the forces spread, the forcing and, if `with_walls`,
   /// the walls. Checks `stop` first: an error reported there ends the run, or throws FailedTrial

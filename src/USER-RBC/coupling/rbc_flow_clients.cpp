@@ -15,6 +15,7 @@ void DrivenFlow::start_run(const std::vector<FluidClient *> &clients, const std:
 {
   forcing_.check();
   inside_.forget();    // the region may be another one
+  excess_ = {};
   take_demands(clients, fluid_id);
   if (layers_needed() != ghost_layers_) build();
   if (controls_flow_rate()) continue_control();

@@ -143,11 +143,7 @@ void ImmersedMarkers::velocity_at_start(const Numbers & /*x*/, Numbers &v)
 
 void ImmersedMarkers::velocities_from_forces(Stage stage)
 {
-  if (contrast_ && !estimating_spectrum_) {
-    const int outside = contrast_->find_surfaces(set());
-    if (outside >= 0) report_outside(outside);
-    stop_->check();
-  }
+  if (contrast_ && !estimating_spectrum_) find_surfaces();
   if (implicit_.acts() && !estimating_spectrum_)
     implicit_.solve(stage);
   else
@@ -180,19 +176,28 @@ void ImmersedMarkers::velocities_of_flow(Stage stage)
   constrain_volume(stage);
 }
 
+void ImmersedMarkers::find_surfaces()
+{
+  const int outside = contrast_->find_surfaces(set());
+  if (outside >= 0) report_outside(outside);
+  stop_->check();
+}
+
 void ImmersedMarkers::complete_flow()
 {
+  if (contrast_ && !contrast_->knows_surfaces()) find_surfaces();
   if (implicit_.flow_is_behind()) {
     load(atom->v, found_);
     velocities_of_flow(Stage::within);
     store(found_, atom->v);
+    implicit_.flow_is_complete();
   }
   if (excess_is_behind_) contrast_->find_excess(set());
   excess_is_behind_ = false;
 }
 
 /* ----------------------------------------------------------------------
-   Estimates of the spectrum go without it: they need no more than a bound.
+   Not for estimates of the spectrum, which need no more than a bound.
 ------------------------------------------------------------------------- */
 
 void ImmersedMarkers::spread_layer()

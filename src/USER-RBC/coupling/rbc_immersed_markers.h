@@ -92,9 +92,10 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
   /// depends: no implicit solution, no check of the speeds, no end of the fluid's step.
   void velocities_of_flow(Stage stage);
 
+  /// Changes atom->v such that cells keep their volumes, as CellMembranes::constrain_volume() does.
   void constrain_volume(Stage stage);
 
-  /// The linear part of this, on atom->v.
+  /// Changes atom->v such that no volume changes.
   void remove_volume_change();
 
   /// Makes the flow that of the velocities of the last evaluation, for output; within a step it may
@@ -169,6 +170,7 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
   rbc::Numbers applied_;    ///< a row for each atom here
 
   double *rows(double **array) const { return members_.empty() ? nullptr : array[0]; }
+  void find_surfaces();
   void spread_layer();
   void evaluate(const rbc::Numbers &x, double fraction, Stage stage, rbc::Numbers &v);
   void report_too_fast(Stage stage);

@@ -33,6 +33,7 @@ void ImplicitVelocity::start_run(DrivenFlow *flow, const std::vector<CellMembran
 {
   flow_ = flow;
   contrast_ = contrast;
+  flow_is_behind_ = false;
   viscous_.clear();
   for (CellMembranes *cells : membranes)
     if (cells->is_viscous()) viscous_.push_back(cells);

@@ -51,6 +51,7 @@ class ImplicitVelocity : protected Pointers {
 
   /// Whether the flow is that of velocities other than those found last.
   bool flow_is_behind() const { return flow_is_behind_; }
+  void flow_is_complete() { flow_is_behind_ = false; }
 
   /// Iterations of an evaluation in this run, and evaluations that did not reach the tolerance.
   double mean_iterations() const

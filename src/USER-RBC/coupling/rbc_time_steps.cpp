@@ -90,8 +90,9 @@ std::string TimeSteps::what_acts() const
     if (modify->get_fix_mask(fix) & (FixConst::PRE_FORCE | FixConst::POST_FORCE))
       names += fmt::format("{} {} ", fix->id, fix->style);
   for (const CellMembranes *cells : all_cell_membranes(lmp))
-    names += fmt::format("{} {} {} {} ", cells->shear_modulus(), cells->parameters().bending,
-                         cells->parameters().local_area, cells->is_smoothed());
+    names += fmt::format("{} {} {} {} {} ", cells->shear_modulus(), cells->parameters().bending,
+                         cells->parameters().local_area, cells->is_smoothed(),
+                         cells->interior_viscosity());
   return names;
 }
 

@@ -18,6 +18,12 @@ static constexpr double SEEN = 0.75;
 
 /* ---------------------------------------------------------------------- */
 
+bool ViscosityContrast::acts_on(const CellMembranes &cells) const
+{
+  return std::any_of(kinds_.begin(), kinds_.end(),
+                     [&cells](const Kind &kind) { return kind.membranes == &cells; });
+}
+
 double ViscosityContrast::widest_gap(const DrivenFlow &flow, fluid::KernelKind kernel)
 {
   if (!gaps_) gaps_ = std::make_unique<fluid::GapMobility>(kernel);
@@ -30,6 +36,7 @@ void ViscosityContrast::start_run(DrivenFlow *flow, const std::vector<CellMembra
   flow_ = flow;
   contact_ = contact;
   kinds_.clear();
+  knows_surfaces_ = false;
   const double outside = flow->settings().equations.viscosity;
   for (CellMembranes *cells : membranes)
     if (cells->interior_viscosity() > 0 && cells->interior_viscosity() != outside)
@@ -53,16 +60,22 @@ int ViscosityContrast::find_surfaces(const fluid::MarkerSet &markers)
           }
         });
   const double mean = total_excess() / flow_->box_volume();
-  wrong_.assign(strength_.size(), 1.0);
+  unit_.assign(strength_.size(), 1.0);
   seen_.resize(strength_.size());
+  knows_surfaces_ = true;
   stopwatch_.stop();
-  const fluid::DoubleLayer unit{wrong_.data(), strength_.data()};
+  const fluid::DoubleLayer unit{unit_.data(), strength_.data()};
   return flow_->apply_mobility(markers, nullptr, seen_.data(), &unit, {mean, mean, mean});
 }
 
 void ViscosityContrast::find_excess(const fluid::MarkerSet &markers)
 {
-  flow_->find_excess(markers, strength_.data(), total_excess() / flow_->box_volume());
+  std::array<double, 2> bounds{0, 0};
+  for (const Kind &kind : kinds_) {
+    bounds[0] = std::min(bounds[0], kind.excess);
+    bounds[1] = std::max(bounds[1], kind.excess);
+  }
+  flow_->find_excess(markers, strength_.data(), total_excess() / flow_->box_volume(), bounds);
 }
 
 /* ----------------------------------------------------------------------
@@ -181,6 +194,7 @@ void ViscosityContrast::bound(const fluid::MarkerSet &markers, double *velocity)
 std::size_t ViscosityContrast::bytes() const
 {
   std::size_t numbers = 0;
-  for (const auto *values : {&strength_, &place_, &seen_, &wrong_}) numbers += values->capacity();
+  for (const auto *values : {&strength_, &place_, &seen_, &wrong_, &unit_})
+    numbers += values->capacity();
   return numbers * sizeof(double);
 }

@@ -35,9 +35,14 @@ class ViscosityContrast : public StepPart, protected Pointers {
 
   /// Whether any do.
   bool acts() const { return !kinds_.empty(); }
+  bool acts_on(const CellMembranes &cells) const;
 
   /// Widest gap across which a vertex sees the inside of another cell.
   double widest_gap(const DrivenFlow &flow, fluid::KernelKind kernel);
+
+  /// Atoms have other numbers here: what is known of them does not hold any more.
+  void atoms_migrated() { knows_surfaces_ = false; }
+  bool knows_surfaces() const { return knows_surfaces_; }
 
   /// Finds the surfaces of the cells, where the atoms are now, and what vertices see of the
   /// viscosity. Returns the first marker whose kernel leaves the ghost layers, or -1. Collective.
@@ -81,6 +86,8 @@ class ViscosityContrast : public StepPart, protected Pointers {
   std::vector<double> place_;       ///< position within the cell
   std::vector<double> seen_;        ///< of the layer with unit velocity
   std::vector<double> wrong_;       ///< what vertices see of w of the last layer, but should not
+  std::vector<double> unit_;        ///< velocities
+  bool knows_surfaces_ = false;
   rbc::Stopwatch stopwatch_;
 
   double total_excess() const;

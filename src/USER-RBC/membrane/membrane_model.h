@@ -70,9 +70,9 @@ class MembraneModel {
   /// template.
   void volume_gradient(Vec3 *gradient) const;
 
-  /// For a surface that moves with v, a value for each vertex, and for each of its vertices: a
-  /// third of the areas around it times sum over tangents a of (n . dv/da) a + (a . dv/da) n with n
-  /// the outward normal; and that third of the areas.
+  /// v holds a velocity for each vertex. Sets for each vertex that is owned a third of the areas
+  /// around it, and that times the sum over two tangents a of (n . dv/da) a + (a . dv/da) n, with n
+  /// the outward normal.
   void surface_shear(const Vec3 *v, Vec3 *shear, double *area) const;
 
   /// Says which triangle is folded over by more than 120 degrees against all three neighbors, or
