@@ -29,9 +29,10 @@ fluid::MarkerKind FixRBCIB::marker_kind() const
 
 bool FixRBCIB::has_layers(double viscosity) const
 {
-  for (const CellMembranes *cells : all_cell_membranes(lmp))
-    if (cells->interior_viscosity() > 0 && cells->interior_viscosity() != viscosity) return true;
-  return false;
+  const auto membranes = all_cell_membranes(lmp);
+  return std::any_of(membranes.begin(), membranes.end(), [viscosity](const CellMembranes *cells) {
+    return cells->differs_inside(viscosity);
+  });
 }
 
 /* ----------------------------------------------------------------------

@@ -83,6 +83,12 @@ class CellMembranes : public StepPart, protected Pointers {
   /// Of the fluid inside; 0 where it is that of the fluid outside.
   double interior_viscosity() const { return settings_.interior; }
 
+  /// Whether the fluid inside has another viscosity than this one, that of the fluid outside.
+  bool differs_inside(double outside) const
+  {
+    return settings_.interior > 0 && settings_.interior != outside;
+  }
+
   // viscosity
 
   bool is_viscous() const { return !settings_.viscosity.is_zero(); }

@@ -242,12 +242,15 @@ void ImmersedMarkers::apply_mobility(double factor, Numbers &response)
   for (int i : members_)
     for (int d = 0; d < 3; ++d) applied_[3 * std::size_t(i) + d] = factor * atom->f[i][d];
   const double *const felt = filter_ ? filter_->smooth_forces(applied_.data(), 1) : applied_.data();
+  int outside;
   if (contrast_) {
     const auto moving = contrast_->layer(set());
-    flow_->apply_mobility(set(), felt, response.data(), &moving.layer, moving.mean_excess);
+    outside =
+        flow_->apply_mobility(set(), felt, response.data(), &moving.layer, moving.mean_excess);
     contrast_->read(set(), response.data());
   } else
-    flow_->apply_mobility(set(), felt, response.data());
+    outside = flow_->apply_mobility(set(), felt, response.data());
+  if (outside >= 0) report_outside(outside);
   if (filter_) filter_->smooth_velocities(response.data());
   if (gaps_) gaps_->add(members_, applied_.data(), 1, response.data());
 }

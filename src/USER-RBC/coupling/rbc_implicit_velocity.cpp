@@ -63,16 +63,17 @@ void ImplicitVelocity::solve(EvaluationStage stage)
 
   markers_.load(atom->v, guess_);
   markers_.velocities_of_flow(stage);
+  double length = 0;
   bool frozen = false;
   for (int round = 0;; ++round) {
     markers_.load(atom->f, forces_);
-    const double before = error_, scale = markers_.fastest() * std::sqrt(count),
+    const double before = length, scale = markers_.fastest() * std::sqrt(count),
                  allowed = tolerance_ * scale;
-    const double length = find_residual();
+    length = find_residual();
     error_ = scale > 0 ? length / scale : 0;
     if (!(length > allowed) && (round > 0 || contrast_)) return;
     if (round == MOST_ROUNDS) break;
-    frozen = round > 0 && !frozen && error_ > before / 2;
+    frozen = round > 0 && !frozen && length > before / 2;
 
     markers_.store(guess_, atom->v);
     for (CellMembranes *cells : viscous_) cells->linearise(frozen);

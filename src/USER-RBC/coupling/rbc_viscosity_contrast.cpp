@@ -39,7 +39,7 @@ void ViscosityContrast::start_run(DrivenFlow *flow, const std::vector<CellMembra
   knows_surfaces_ = false;
   const double outside = flow->settings().equations.viscosity;
   for (CellMembranes *cells : membranes)
-    if (cells->interior_viscosity() > 0 && cells->interior_viscosity() != outside)
+    if (cells->differs_inside(outside))
       kinds_.push_back({cells, cells->interior_viscosity() / outside - 1});
   if (acts() && contact_) widest_gap(*flow_, kernel);
 }
