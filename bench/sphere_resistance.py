@@ -12,8 +12,8 @@ MOTIONS = "apart", "past", "turning across", "turning along"
 
 
 def harmonics(x, order, count):
-    """Decaying harmonics of degrees 1 to count: P_n, or P_n' times x/r (order "x") or y/r (order "y")
-    over n, all times r^-(n+1)."""
+    """Decaying harmonics of degrees 1 to count: P_n, or P_n' times x/r (order "x") or y/r
+    (order "y") over n, all times r^-(n+1)."""
     r = np.sqrt(x[0]**2 + x[1]**2 + x[2]**2)
     c = x[2] / r
     legendre, slope = [np.ones_like(c), c], [np.zeros_like(c), np.ones_like(c)]
@@ -63,7 +63,8 @@ MIRROR = np.array([1, 1, -1.0])[:, None, None]
 
 def image_in_plate(image, height, motion, count):
     """What must be added so that the plate is at rest, at the points whose mirror images are given;
-    height: of the points. After Lorentz: -v + 2 (w e_z - z grad w) + z^2 grad p, of mirrored fields."""
+    height: of the points. After Lorentz: -v + 2 (w e_z - z grad w) + z^2 grad p, of mirrored
+    fields."""
     def differences(part):
         step, slopes = 1e-5, []
         for d in range(3):

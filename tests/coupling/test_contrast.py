@@ -4,7 +4,7 @@ import unittest
 
 import numpy as np
 
-from lammps_case import POTENTIALS, attempt, in_parallel, read_template, run, scene
+from lammps_case import POTENTIALS, attempt, in_parallel, push, read_template, run, scene
 
 VISCOSITY, BOX = 1.5, 6
 NODES, TRIANGLES = read_template(POTENTIALS / "capsule_642.mol")[:2]
@@ -27,17 +27,13 @@ NORMAL = NODES / np.linalg.norm(NODES, axis=1)[:, None]
 
 def velocities(forces, interior="", ib="tol 1e-6", dx=1 / 6, ranks=1, steps=0, more=""):
     """Of all vertices of a sphere of radius 1 that these forces act on."""
-    columns = {f"f{axis}": forces[:, d] for d, axis in enumerate("xyz")}
-    before = [f"variable {name} atomfile {name}.txt" for name in columns]
-    before.append("fix push all addforce v_fx v_fy v_fz")
-    files = {f"{name}.txt": f"{len(column)}\n" + "".join(f"{n + 1} {value!r}\n" for n, value in enumerate(column.tolist()))
-             for name, column in columns.items()}
+    before, files = push(forces)
     dump = "dump atoms all custom 1 atoms.dump id x y z vx vy vz\ndump_modify atoms sort id format float %.17g"
     result = run(scene(
         boundary="boundary p p p", box=f"region box block 0 {BOX} 0 {BOX} 0 {BOX}",
         molecule=f"molecule rbc {POTENTIALS}/capsule_642.mol", cells="rbc/create rbc single 3.02 2.95 3.01 rotate 30 1 0.3 0",
         neighbor="neighbor 0.3 bin", membrane=f"fix mem all rbc/membrane rbc neo-hookean 1e-30 volume yes {interior}",
-        before="\n".join(before), fluid=f"fix flow all rbc/fluid dx {dx} viscosity {VISCOSITY}",
+        before=before, fluid=f"fix flow all rbc/fluid dx {dx} viscosity {VISCOSITY}",
         thermo="thermo_style custom step f_ib[11] f_ib[12] f_flow[1]", ib=f"fix ib all rbc/ib flow integrator midpoint {ib}",
         timestep="timestep 1e-3", dump=dump + "\n" + more, run=f"run {steps}"), ranks, files=files)
     return result.dump()("vx", "vy", "vz"), result

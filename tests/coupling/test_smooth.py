@@ -4,7 +4,7 @@ import unittest
 
 import numpy as np
 
-from lammps_case import POTENTIALS, SHEAR, attempt, in_parallel, make_template, read_template, run, scene
+from lammps_case import POTENTIALS, SHEAR, attempt, in_parallel, make_template, push, read_template, run, scene
 
 RATE, DIAMETER, ASPECT = 1e-3, 2.4, 1 / 3
 COUNT = len(read_template(POTENTIALS / "rbc_162.mol")[0])
@@ -48,14 +48,10 @@ class StiffSpheroid(unittest.TestCase):
 
 def velocities(forces, smooth="yes", ranks=1, ib=""):
     """Of all vertices of a cell whose membrane exerts no forces."""
-    columns = {f"f{axis}": forces[:, d] for d, axis in enumerate("xyz")}
-    before = [f"variable {name} atomfile {name}.txt" for name in columns]
-    before.append("fix push all addforce v_fx v_fy v_fz")
-    files = {f"{name}.txt": f"{len(column)}\n" + "".join(f"{n + 1} {value!r}\n" for n, value in enumerate(column.tolist()))
-             for name, column in columns.items()}
+    before, files = push(forces)
     dump = "dump atoms all custom 1 atoms.dump id x y z vx vy vz\ndump_modify atoms sort id format float %.17g"
     result = run(scene(boundary="boundary p p p", membrane="fix mem all rbc/membrane rbc neo-hookean 1e-30 volume no"
-                       f" smooth {smooth}", before="\n".join(before),
+                       f" smooth {smooth}", before=before,
                        fluid="fix flow all rbc/fluid dx 1 viscosity 1.5 density 1.025", thermo="",
                        ib="fix ib all rbc/ib flow integrator midpoint" + ib,
                        timestep="timestep 1e-3", dump=dump), ranks, files=files)

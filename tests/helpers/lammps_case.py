@@ -61,6 +61,15 @@ def scene(base=SHEAR, **changes):
     return "\n".join(line for line in {**base, **changes}.values() if line) + "\n"
 
 
+def push(forces):
+    """Lines of a script that add these forces, a row for each atom, and the files that they need."""
+    columns = {f"f{axis}": forces[:, d].tolist() for d, axis in enumerate("xyz")}
+    lines = [f"variable {name} atomfile {name}.txt" for name in columns]
+    files = {f"{name}.txt": f"{len(values)}\n" + "".join(f"{n} {value!r}\n" for n, value in enumerate(values, 1))
+             for name, values in columns.items()}
+    return "\n".join([*lines, "fix push all addforce v_fx v_fy v_fz"]), files
+
+
 class Failed(Exception):
     """The run ended with an error; what() is the text after ERROR."""
 
