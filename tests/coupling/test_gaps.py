@@ -4,7 +4,7 @@ import unittest
 
 import numpy as np
 
-from lammps_case import POTENTIALS, SHEAR, attempt, dump_line, in_parallel, read_template, run, scene
+from lammps_case import POTENTIALS, SHEAR, attempt, dump_line, in_parallel, push, read_template, run, scene
 
 DX, VISCOSITY = 1.0, 1.5
 SEEN = "pair_style rbc/jkr 0.5\npair_coeff * * none"
@@ -84,16 +84,10 @@ def velocities(forces, gaps="yes", ranks=1, newton="newton on", kernel="roma3", 
                shift=0.0):
     """Of all vertices of two stacked cells whose membranes exert no forces."""
     cells = "\n".join(f"rbc/create rbc single {x} {y} {z + shift}" for x, y, z in CENTRES)
-    columns = {f"f{axis}": forces[:, d] for d, axis in enumerate("xyz")}
-    before = [pair]
-    for name in columns:
-        before.append(f"variable {name} atomfile {name}.txt")
-    before.append("fix push all addforce v_fx v_fy v_fz")
-    files = {f"{name}.txt": f"{len(column)}\n" + "".join(f"{n + 1} {value!r}\n" for n, value in enumerate(column.tolist()))
-             for name, column in columns.items()}
+    before, files = push(forces)
     boundary, walls = ("p p f", " wall zlo 0 0 0 wall zhi 0 0 0") if plates else ("p p p", "")
     result = run(scene(newton=newton, boundary=f"boundary {boundary}", cells=cells,
-                       membrane="fix mem all rbc/membrane rbc neo-hookean 1e-30 volume no", before="\n".join(before),
+                       membrane="fix mem all rbc/membrane rbc neo-hookean 1e-30 volume no", before=f"{pair}\n{before}",
                        fluid=f"fix flow all rbc/fluid dx {DX} viscosity {VISCOSITY} density 1.025" + walls,
                        ib=f"fix ib all rbc/ib flow kernel {kernel} integrator midpoint gaps {gaps}", thermo="",
                        timestep="timestep 1e-3", dump=dump_line(1, columns="id xu yu zu vx vy vz")), ranks, files=files)
