@@ -31,7 +31,7 @@ TUBES = {    # variables of in.fahraeus
 MESHES = {"coarsest": {"shape": "rbc_162", "dx": 0.8, "range": 0.8}, "coarse": {"shape": "rbc_162", "dx": 0.65},
           "fine": {"shape": "rbc_362", "dx": 0.5}}
 CASES = {f"{tube}-{mesh}": {**TUBES[tube], **MESHES[mesh]} for tube in TUBES for mesh in MESHES
-         if mesh == "coarse" or mesh == ("coarsest" if tube == "d40h30" else "fine") and tube != "d40h45"}
+         if mesh == "coarse" or mesh == ("coarsest" if tube == "d40h30" else "fine")}
 RATE = 50e-6             # mean velocity over diameter, 1/us
 COLORS = {"d10h30": "#8cbf6f", "d10h45": "#33691e", "d20h30": "#e06666", "d20h45": "#8b1a1a", "d40h30": "#6fa8dc",
           "d40h45": "#1c4587"}

@@ -11,8 +11,6 @@ converge.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1] [--only r100
 grids, which take most of the time; seeds: other packings of r100.
 """
 import itertools
-import shutil
-import subprocess
 import sys
 from pathlib import Path
 
@@ -26,7 +24,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 import example_study  # noqa: E402
 from blood_study import COLUMNS, measure_viscosity  # noqa: E402
-from study import KINDS, WORDS  # noqa: E402
+from study import KINDS, WORDS, made_templates  # noqa: E402
 
 KERNELS = "roma3", "peskin4"
 SCENES = "r100", "r10", "a100", "a10", "r60", "a60"
@@ -39,18 +37,6 @@ SEEDS = 4712, 4713, 4714, 4715
 SEEDED = "r100", "roma3", "rbc_162", 0.8
 COLUMNS_OF_PANELS = 3
 SMALL_BOX = {"cells": 32, "gap": 15, "strain": 5, "frames": 1000000}
-
-
-def made_templates(folder):
-    """The folder of templates, with those that the package does not ship."""
-    templates = folder / "templates"
-    if not templates.exists():
-        shutil.copytree(TOP / "potentials", templates,
-                        ignore=shutil.ignore_patterns("*.py", "__pycache__"))
-        subprocess.run([TOP / "potentials" / "make_template.py", "disc", "--diameter", "7.82",
-                        "--frequency", "12", "--output", templates / "rbc_1442.mol"], check=True,
-                       stdout=subprocess.DEVNULL)
-    return templates
 
 
 def label(scene, kernel, shape, dx):

@@ -13,6 +13,7 @@ Writes suspension.csv and suspension.png to FOLDER, where the runs are, too, wit
 """
 import csv
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -33,7 +34,8 @@ from snapshots import surfaces  # noqa: E402
 from surface_distances import pair_distances  # noqa: E402
 from surface_gaps import read_cells  # noqa: E402
 
-SCRIPTS = HERE.parents[1] / "scripts"
+TOP = HERE.parents[1]
+SCRIPTS = TOP / "scripts"
 RATES = 10, 60, 100                          # 1/s
 KINDS = {"a": 2.0e-4, "r": 0.0}              # work of adhesion, mJ/m^2
 WORDS = {"a": "adhesive", "r": "repulsive"}
@@ -157,6 +159,18 @@ def draw(cases, pictures, path):
     figure.savefig(path, dpi=110)
 
 
+def made_templates(folder):
+    """The folder of templates, with those that the package does not ship."""
+    templates = folder / "templates"
+    if not templates.exists():
+        shutil.copytree(TOP / "potentials", templates,
+                        ignore=shutil.ignore_patterns("*.py", "__pycache__"))
+        subprocess.run([TOP / "potentials" / "make_template.py", "disc", "--diameter", "7.82",
+                        "--frequency", "12", "--output", templates / "rbc_1442.mol"], check=True,
+                       stdout=subprocess.DEVNULL)
+    return templates
+
+
 def run_case(arguments, name, folder):
     """Runs in.suspension in a folder, which keeps the seconds of processors that it took."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -164,7 +178,7 @@ def run_case(arguments, name, folder):
     variables = {"rate": name[1:], "sigma": KINDS[name[0]],
                  **{name: getattr(arguments, name) for name in OPTIONS}}
     done = example_study.run_script(arguments, HERE / "in.suspension", folder, variables,
-                                    log="log.lammps")
+                                    made_templates(folder.parent), log="log.lammps")
     seconds = example_study.processor_seconds() - before
     (folder / SECONDS).write_text(f"{seconds:.1f}\n", encoding="utf-8")
     said = re.findall(r"^(?:ERROR|WARNING).*", done.stdout, re.MULTILINE)
