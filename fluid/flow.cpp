@@ -46,8 +46,12 @@ int Flow::spread(const MarkerSet &markers, const double *force, double factor)
 int Flow::spread(const MarkerSet &markers, const double *force, double factor, ForcedVelocity &flow)
 {
   const bool layers = markers.kind == MarkerKind::layers;
-  if (layers) start_layers(markers.kernel, flow);
-  return fluid::spread(grid_, markers, force, factor, layers ? flow.of_layers : flow.force,
+  if (layers) {
+    flow.corrected = true;
+    flow.kernel = markers.kernel;
+    if (!flow.to_correct.bytes()) flow.to_correct = VectorField(halo_.box());
+  }
+  return fluid::spread(grid_, markers, force, factor, layers ? flow.to_correct : flow.force,
                        reach(markers.kind));
 }
 
@@ -58,27 +62,17 @@ int Flow::spread(const MarkerSet &markers, const DoubleLayer &layer)
 
 int Flow::spread(const MarkerSet &markers, const DoubleLayer &layer, ForcedVelocity &flow)
 {
-  assert(markers.kind == MarkerKind::layers);
-  start_layers(markers.kernel, flow);
-  return fluid::spread(grid_, markers, layer, equations_.viscosity, flow.double_layer, flow.source,
-                       halo_.box());
-}
-
-void Flow::start_layers(KernelKind kernel, ForcedVelocity &flow)
-{
   assert(equations_.inertia == Inertia::none);
   flow.layered = true;
-  flow.kernel = kernel;
-  if (flow.source.bytes()) return;
-  flow.of_layers = VectorField(halo_.box());
-  flow.double_layer = VectorField(halo_.box());
-  flow.source = ScalarField(halo_.box());
+  if (!flow.source.bytes()) flow.source = ScalarField(halo_.box());
+  return fluid::spread(grid_, markers, layer, equations_.viscosity, flow.force, flow.source,
+                       halo_.box());
 }
 
 /// The box inside which kernels must stay.
 Box Flow::reach(MarkerKind kind) const
 {
-  const int layers = kind == MarkerKind::points ? 0 : SheetVelocity::layers;
+  const int layers = kind == MarkerKind::sheets ? SheetVelocity::layers : 0;
   return without_layers(halo_.box(), grid_, layers);
 }
 
@@ -91,24 +85,21 @@ void Flow::accumulate_ghosts_of(ForcedVelocity &flow)
 {
   if (grid_.plates) fold_force(grid_, flow.force, flow.into_lower, flow.into_upper);
   halo_.accumulate(flow.force.views());
-  if (flow.layered) add_layers(flow);
+  if (flow.layered) {
+    if (grid_.plates) fold_source(grid_, flow.source);
+    halo_.accumulate(flow.source.views());
+  }
+  if (flow.corrected) add_corrected(flow);
 }
 
-/// Adds what layers spread to the force: their forces corrected as the velocity of sheets is, which
-/// commutes with the solve, and their double layer.
-void Flow::add_layers(ForcedVelocity &flow)
+/// Adds the forces of layers, corrected as the velocity of sheets is, which commutes with the
+/// solve.
+void Flow::add_corrected(ForcedVelocity &flow)
 {
-  if (grid_.plates) {
-    fold_force(grid_, flow.of_layers, flow.into_lower, flow.into_upper);
-    fold_force(grid_, flow.double_layer, flow.into_lower, flow.into_upper);
-    fold_source(grid_, flow.source);
-  }
-  halo_.accumulate(flow.of_layers.views());
-  halo_.accumulate(flow.double_layer.views());
-  halo_.accumulate(flow.source.views());
-  fill_ghosts_of(flow.of_layers, {});
-  add(flow.force, 1, sheets_.of(flow.of_layers, flow.kernel, grid_, {}), brick());
-  add(flow.force, 1, flow.double_layer, brick());
+  if (grid_.plates) fold_force(grid_, flow.to_correct, flow.into_lower, flow.into_upper);
+  halo_.accumulate(flow.to_correct.views());
+  fill_ghosts_of(flow.to_correct, {});
+  add(flow.force, 1, sheets_.of(flow.to_correct, flow.kernel, grid_, {}), brick());
 }
 
 void Flow::solve(const Forcing &forcing)
@@ -366,8 +357,7 @@ std::size_t Flow::bytes() const
   std::size_t sum = pressure_.bytes() + halo_.bytes() + solver_.bytes() + sheets_.bytes() +
                     excess_.bytes() + total_.source.bytes() + mobility_.source.bytes();
   for (const ForcedVelocity *flow : {&total_, &mobility_})
-    for (const VectorField *field :
-         {&flow->force, &flow->velocity, &flow->of_layers, &flow->double_layer})
+    for (const VectorField *field : {&flow->force, &flow->velocity, &flow->to_correct})
       sum += field->bytes();
   for (const VectorField *field : {&previous_, &rhs_, &fluid_velocity_}) sum += field->bytes();
   return sum;

@@ -146,22 +146,19 @@ class Flow {
   /// Forces and the velocity that they give, with what of the forces goes straight into the plates.
   struct ForcedVelocity {
     VectorField force, velocity;
-    VectorField of_layers;    ///< forces of markers that are layers, to be corrected
-    VectorField double_layer;
-    ScalarField source;    ///< of double layers; these fields are empty before the first
-    bool layered = false;
-    KernelKind kernel = default_kernel;    ///< of the layers
+    VectorField to_correct;    ///< forces of markers that are layers; empty before the first
+    ScalarField source;        ///< of double layers; empty before the first
+    bool corrected = false;    ///< there are such forces
+    bool layered = false;      ///< there are double layers
+    KernelKind kernel = default_kernel;    ///< of the forces to correct
     Real3 into_lower{0, 0, 0}, into_upper{0, 0, 0};
 
     void clear_force()
     {
       force.clear();
-      if (layered) {
-        of_layers.clear();
-        double_layer.clear();
-        source.clear();
-      }
-      layered = false;
+      if (corrected) to_correct.clear();
+      if (layered) source.clear();
+      corrected = layered = false;
       into_lower = into_upper = {0, 0, 0};
     }
   };
@@ -174,8 +171,8 @@ class Flow {
                  const ScalarField *source = nullptr);
   int spread(const MarkerSet &markers, const double *force, double factor, ForcedVelocity &flow);
   int spread(const MarkerSet &markers, const DoubleLayer &layer, ForcedVelocity &flow);
-  void start_layers(KernelKind kernel, ForcedVelocity &flow);
-  void add_layers(ForcedVelocity &flow);
+  void add_corrected(ForcedVelocity &flow);
+  void take_layers(const Flow &old);
   void accumulate_ghosts_of(ForcedVelocity &flow);
   void fill_ghosts_of(const VectorField &velocity, const PlateVelocities &plates);
   Box reach(MarkerKind kind) const;

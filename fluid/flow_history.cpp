@@ -95,12 +95,28 @@ void Flow::take_over(Flow &old)
   };
   move_field(old.total_.velocity, total_.velocity);
   if (old.has_force_ && has_force_) move_field(old.total_.force, total_.force);
+  take_layers(old);
   if (equations_.inertia != Inertia::none) move_field(old.previous_, previous_);
   if (equations_.inertia == Inertia::convective) move_field(old.rhs_, rhs_);
   if (equations_.inertia == Inertia::convective) fill_ghosts_of(previous_, previous_plates_);
   if (const auto *kept = solver_.kept_modes())
     move(decomposition_.comm, old.solver_.mode_bricks(), old.solver_.kept_modes()->views(),
          solver_.mode_bricks(), kept->views());
+}
+
+/// Source and viscosity of double layers.
+void Flow::take_layers(const Flow &old)
+{
+  const auto move_field = [&](const ScalarField &from, ScalarField &to) {
+    to = ScalarField(halo_.box());
+    move(decomposition_.comm, old.decomposition_.bricks, from.views(), decomposition_.bricks,
+         to.views());
+  };
+  total_.layered = old.total_.layered;
+  if (total_.layered) move_field(old.total_.source, total_.source);
+  if (!old.excess_.bytes()) return;
+  move_field(old.excess_, excess_);
+  halo_.fill(excess_.views());
 }
 
 }    // namespace fluid

@@ -1,5 +1,7 @@
 #include "fluid/plates.h"
 
+#include <algorithm>
+
 namespace fluid {
 
 namespace {
@@ -31,10 +33,27 @@ int planes_beyond(int c, bool upper)
   return c != 2 && upper ? layers + 1 : layers;
 }
 
-template <typename Visit> void for_each_in_plane(const Box &box, Visit visit)
+double *row_of(const View<double> &field, int j, int k)
 {
-  for (int j = box.lo[1]; j < box.hi[1]; ++j)
-    for (int i = box.lo[0]; i < box.hi[0]; ++i) visit(i, j);
+  return &field(field.box.lo[0], j, k);
+}
+
+double sum_of(const double *row, int n)
+{
+  double sum = 0;
+#pragma omp simd reduction(+ : sum)
+  for (int i = 0; i < n; ++i) sum += row[i];
+  return sum;
+}
+
+/// onto += factor * from, and from = 0; different rows.
+void move_row(double factor, double *from, double *onto, int n)
+{
+#pragma omp simd
+  for (int i = 0; i < n; ++i) {
+    onto[i] += factor * from[i];
+    from[i] = 0;
+  }
 }
 
 /// The box holds the faces on the plate.
@@ -48,6 +67,7 @@ bool reaches(const Grid &grid, const Box &box, bool upper)
 void reflect_velocity(const Grid &grid, const PlateVelocities &plates, const VectorField &velocity)
 {
   const Box &box = velocity.box();
+  const int n = box.extent(0);
   for (bool upper : {false, true}) {
     if (!reaches(grid, box, upper)) continue;
     const Real3 &plate_velocity = upper ? plates.upper : plates.lower;
@@ -57,14 +77,17 @@ void reflect_velocity(const Grid &grid, const PlateVelocities &plates, const Vec
                    of_plate = (1 - factor) * plate_velocity[c];
       if (c == 2) {
         const int plate = upper ? grid.cells[2] : 0;
-        for_each_in_plane(box, [&](int i, int j) { u(i, j, plate) = 0; });
+        for (int j = box.lo[1]; j < box.hi[1]; ++j) std::fill_n(row_of(u, j, plate), n, 0.0);
       }
       for (int layer = 1; layer <= planes_beyond(c, upper); ++layer) {
         const auto [beyond, inside] = mirrored(grid, c, upper, layer);
         if (beyond < box.lo[2] || beyond >= box.hi[2]) continue;
-        for_each_in_plane(box, [&, beyond = beyond, inside = inside](int i, int j) {
-          u(i, j, beyond) = of_plate + factor * u(i, j, inside);
-        });
+        for (int j = box.lo[1]; j < box.hi[1]; ++j) {
+          double *const image = row_of(u, j, beyond);
+          const double *const row = row_of(u, j, inside);
+#pragma omp simd
+          for (int i = 0; i < n; ++i) image[i] = of_plate + factor * row[i];
+        }
       }
     }
   }
@@ -73,6 +96,7 @@ void reflect_velocity(const Grid &grid, const PlateVelocities &plates, const Vec
 void fold_force(const Grid &grid, const VectorField &force, Real3 &lower, Real3 &upper_sum)
 {
   const Box &box = force.box();
+  const int n = box.extent(0);
   for (bool upper : {false, true}) {
     if (!reaches(grid, box, upper)) continue;
     Real3 &sum = upper ? upper_sum : lower;
@@ -81,19 +105,18 @@ void fold_force(const Grid &grid, const VectorField &force, Real3 &lower, Real3 
       const double factor = image_factor(grid, c, upper);
       if (c == 2) {
         const int plate = upper ? grid.cells[2] : 0;
-        for_each_in_plane(box, [&](int i, int j) {
-          sum[c] += f(i, j, plate);
-          f(i, j, plate) = 0;
-        });
+        for (int j = box.lo[1]; j < box.hi[1]; ++j) {
+          sum[c] += sum_of(row_of(f, j, plate), n);
+          std::fill_n(row_of(f, j, plate), n, 0.0);
+        }
       }
       for (int layer = 1; layer <= planes_beyond(c, upper); ++layer) {
         const auto [beyond, inside] = mirrored(grid, c, upper, layer);
         if (beyond < box.lo[2] || beyond >= box.hi[2]) continue;
-        for_each_in_plane(box, [&, beyond = beyond, inside = inside](int i, int j) {
-          sum[c] += (1 - factor) * f(i, j, beyond);
-          f(i, j, inside) += factor * f(i, j, beyond);
-          f(i, j, beyond) = 0;
-        });
+        for (int j = box.lo[1]; j < box.hi[1]; ++j) {
+          sum[c] += (1 - factor) * sum_of(row_of(f, j, beyond), n);
+          move_row(factor, row_of(f, j, beyond), row_of(f, j, inside), n);
+        }
       }
     }
   }
@@ -108,10 +131,8 @@ void fold_source(const Grid &grid, const ScalarField &source)
     for (int layer = 1; layer <= planes_beyond(0, upper); ++layer) {
       const auto [beyond, inside] = mirrored(grid, 0, upper, layer);
       if (beyond < box.lo[2] || beyond >= box.hi[2]) continue;
-      for_each_in_plane(box, [&, beyond = beyond, inside = inside](int i, int j) {
-        s(i, j, inside) += s(i, j, beyond);
-        s(i, j, beyond) = 0;
-      });
+      for (int j = box.lo[1]; j < box.hi[1]; ++j)
+        move_row(1, row_of(s, j, beyond), row_of(s, j, inside), box.extent(0));
     }
   }
 }

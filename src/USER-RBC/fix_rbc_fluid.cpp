@@ -273,6 +273,7 @@ int FixRBCFluid::get_griddata_by_name(int igrid, const std::string &name, int &n
 
 void *FixRBCFluid::get_griddata_by_index(int index)
 {
+  flow->finish_evaluation();
   return grid_output.get(index, flow->flow(), flow->uniform_force(), flow->version());
 }
 

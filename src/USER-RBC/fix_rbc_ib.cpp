@@ -334,6 +334,7 @@ void FixRBCIB::restart(char *buffer)
 
 void FixRBCIB::post_run()
 {
+  flow->finish_evaluation();    // atoms may be changed after the run
   const bigint solves = flow->solves_counted(), step_count = flow->steps_counted();
   if (solves == 0) return;
   const double cells = static_cast<double>(flow->flow().grid().size());

@@ -136,6 +136,34 @@ class Steps(unittest.TestCase):
             for column in ("f_flow[1]", "f_flow[4]", "f_flow[7]", "f_flow[10]"):
                 np.testing.assert_allclose(within[column][-1], anew[column][-1], rtol=1e-4, err_msg=f"{column}, {ranks} ranks")
 
+    def test_output_changes_nothing(self):
+        # the flow of the velocities found is computed when it is asked for
+        cell = "fix mem all rbc/membrane rbc mooney-rivlin 0.257 0.0257 0.01 bending 2.0e-4 volume yes interior 7.5"
+        dump = "dump atoms all custom 6 atoms.dump id x y z vx vy vz\ndump_modify atoms sort id format float %.17g"
+
+        def moved(every, ib):
+            result = run(scene(membrane=cell, ib=f"fix ib all rbc/ib flow {ib}", dump=dump, run="run 6", every=f"thermo {every}",
+                               thermo="thermo_style custom step f_flow[1] f_flow[9] f_flow"))
+            return result.dump().frames[-1], [column[-1] for column in result.thermo.values()]
+
+        for ib in ("integrator midpoint", "integrator rkc auto", "integrator rkc auto adapt 1e-3 200", "integrator ab2"):
+            (often, shown), (seldom, late) = moved(1, ib), moved(6, ib)
+            np.testing.assert_array_equal(often, seldom, err_msg=ib)
+            self.assertEqual(shown, late, ib)
+
+    def test_flow_is_known_after_balance(self):
+        # with this tolerance the flow of the last evaluation is that of the velocities, and moves as it is
+        cell = "fix mem all rbc/membrane rbc mooney-rivlin 0.257 0.0257 0.01 bending 2.0e-4 interior 7.5"
+        columns = "f_flow:grid:velocity[*] f_flow:grid:interior"
+        result = run(scene(
+            membrane=cell, ib="fix ib all rbc/ib flow tol 0.1 integrator rkc auto adapt 1e-3 200",
+            before="fix even all balance 2 1.0 shift xy 10 1.05", every="thermo 1",
+            thermo="thermo_style custom step f_flow[1] f_flow[10] f_flow", thermo_modify="thermo_modify format float %.17g",
+            dump=f"dump grid all grid 2 flow.*.grid {columns}", run="run 4\nrun 0"), 3)
+        within, anew = result.tables()
+        for column in ("f_flow[1]", "f_flow[10]", "f_flow"):
+            np.testing.assert_allclose(within[column][-1], anew[column][-1], rtol=5e-3, err_msg=column)
+
     def test_a_viscous_inside_leaves_nothing_behind(self):
         membrane = "fix mem all rbc/membrane rbc mooney-rivlin 0.257 0.0257 0.01 bending 2.0e-4"
         again = f"unfix ib\nunfix mem\n{membrane}\n"

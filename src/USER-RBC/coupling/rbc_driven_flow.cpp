@@ -2,6 +2,7 @@
 
 #include "comm.h"
 #include "coupling/rbc_ghost_layers.h"
+#include "coupling/rbc_unfinished_flow.h"
 #include "domain.h"
 #include "error.h"
 #include "fluid/advection.h"
@@ -318,8 +319,20 @@ void DrivenFlow::check_courant()
 
 /* ---------------------------------------------------------------------- */
 
+void DrivenFlow::finish_velocity()
+{
+  if (const auto evaluation = unfinished_.lock()) evaluation->finish_velocity();
+}
+
+void DrivenFlow::finish_evaluation()
+{
+  finish_velocity();
+  if (const auto evaluation = unfinished_.lock()) evaluation->finish_viscosity();
+}
+
 const fluid::FlowDiagnostics &DrivenFlow::diagnostics()
 {
+  finish_evaluation();
   if (diagnosed_version_ != version_) {
     diagnostics_ = fluid::diagnose(*flow_, solved_forcing_);
     for (int d = 0; d < 3; ++d) diagnostics_.mean_velocity[d] -= excess_[d];
@@ -335,14 +348,16 @@ const fluid::FlowDiagnostics &DrivenFlow::diagnostics()
 std::array<double, 3> DrivenFlow::mean_inside()
 {
   if (settings_.inside.empty()) return diagnostics().mean_velocity;
+  finish_velocity();
   std::array<double, 3> mean = inside_.mean_velocity(*flow_, version_);
   const double share = box_volume() / inside_volume();
   for (int d = 0; d < 3; ++d) mean[d] -= share * excess_[d];
   return mean;
 }
 
-double DrivenFlow::driving_force(int d) const
+double DrivenFlow::driving_force(int d)
 {
+  finish_velocity();
   double density = forcing_.end().body[d];
   if (holds_box_mean() && !has_inertia()) density = -flow_->mean_force()[d];
   return density / force->ftm2v;

@@ -18,6 +18,7 @@
 namespace LAMMPS_NS {
 
 class FluidClient;
+class UnfinishedFlow;
 
 /// A flow and all that acts on it: forcing, the region inside of which the body force acts, walls
 /// of atoms, and the time within a step. An evaluation is
@@ -141,6 +142,17 @@ class DrivenFlow : public StepPart, protected Pointers {
   /// With inertia: the end of the fluid's step. Without: nothing.
   void finish_step();
 
+  /// Whose last evaluation may be unfinished; nothing happens once it is gone.
+  void leave_unfinished(std::weak_ptr<UnfinishedFlow> evaluation)
+  {
+    unfinished_ = std::move(evaluation);
+  }
+
+  /// Finishes the last evaluation: its velocity, or all of it. Call before the flow is read through
+  /// flow(); what is asked for below does so itself. Collective.
+  void finish_velocity();
+  void finish_evaluation();
+
   /// Call after the flow was changed through flow(): measures of it are computed anew when asked
   /// for. With inertia convective this also checks how many cells the fluid crosses in a step,
   /// which is collective and may end the run.
@@ -160,7 +172,7 @@ class DrivenFlow : public StepPart, protected Pointers {
 
   /// Body force, or the pressure gradient that balances all forces where the mean velocity is held;
   /// force density.
-  double driving_force(int d) const;
+  double driving_force(int d);
 
   void count_from_here();
   bigint solves_counted() const { return solves() - first_solve_; }
@@ -196,6 +208,7 @@ class DrivenFlow : public StepPart, protected Pointers {
   fluid::Forcing solved_forcing_;    ///< of the last solve: what acts everywhere in the grid
 
   // an evaluation
+  std::weak_ptr<UnfinishedFlow> unfinished_;
   std::array<double, 3> marker_force_{};    ///< sum spread on this rank; kept with walls
   std::array<double, 3> excess_{};          ///< of the mean velocity that is solved for
 

@@ -36,5 +36,7 @@ int LAMMPS_NS::marker_layers(LAMMPS *lmp, const std::string &style, const std::a
     layers = std::max(layers, of_skin + reach.cells_per_step);
   }
   return static_cast<int>(std::ceil(layers)) + KERNEL_LAYERS +
-         (reach.sheets ? fluid::SheetVelocity::layers : 0) + (reach.layers ? 1 : 0);
+         (reach.layers   ? 1
+          : reach.sheets ? fluid::SheetVelocity::layers
+                         : 0);
 }

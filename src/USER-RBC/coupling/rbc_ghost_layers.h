@@ -12,7 +12,7 @@ class LAMMPS;
 struct MarkerReach {
   double cells_per_step = 1;    ///< that a marker may cross
   bool sheets = false;          ///< their velocities need differences of the flow
-  bool layers = false;          ///< they spread double layers
+  bool layers = false;          ///< they spread double layers, and are no sheets
 };
 
 /// Layers of fluid cells that must be known around a subdomain of LAMMPS. The grid has so many

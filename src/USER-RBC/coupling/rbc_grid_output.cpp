@@ -24,11 +24,9 @@ void *GridOutput::get(int index, fluid::Flow &flow, const std::array<double, 3> 
 {
   if (index < 0 || index >= KINDS) return nullptr;
   box_ = flow.brick();
-  if (!data_[index])
-    data_[index] = allocate(index);
-  else if (version_[index] == version)
-    return data_[index];
+  if (version_[index] == version) return data_[index];
   version_[index] = version;
+  if (!data_[index]) data_[index] = allocate(index);
 
   if (index == PRESSURE)
     fill_scalar(PRESSURE, flow.pressure(), 1.0 / force->ftm2v);
@@ -66,6 +64,7 @@ void *GridOutput::allocate(int index)
 
 void GridOutput::free()
 {
+  version_.fill(NONE);
   const auto &lo = box_.lo;
   for (int index = 0; index < KINDS; ++index) {
     if (!data_[index]) continue;

@@ -36,8 +36,10 @@ class GridOutput : protected Pointers {
  private:
   enum Kind { VELOCITY, PRESSURE, FORCE, INTERIOR, KINDS };
 
+  static constexpr bigint NONE = -1;
+
   std::array<void *, KINDS> data_{};
-  std::array<bigint, KINDS> version_{};
+  std::array<bigint, KINDS> version_{NONE, NONE, NONE, NONE};    ///< of the flow in data_
   fluid::Box box_;
   CellFraction fraction_;
 

@@ -33,7 +33,8 @@ ImmersedMarkers::ImmersedMarkers(LAMMPS *lmp, std::string style, int groupbit,
                                  const Settings &settings) :
     Pointers(lmp),
     style_(std::move(style)), groupbit_(groupbit), settings_(settings), implicit_(lmp, *this),
-    stop_(std::make_shared<CollectiveStop>(lmp))
+    stop_(std::make_shared<CollectiveStop>(lmp)),
+    unfinished_(static_cast<UnfinishedFlow *>(this), [](UnfinishedFlow *) {})
 {
 }
 
@@ -148,8 +149,8 @@ void ImmersedMarkers::velocities_from_forces(Stage stage)
     implicit_.solve(stage);
   else
     velocities_of_flow(stage);
-  excess_is_behind_ = contrast_;
-  if (stage != Stage::within) complete_flow();
+  viscosity_is_behind_ = contrast_;
+  if (contrast_) flow_->leave_unfinished(unfinished_);
   check_velocities(stage);
   flow_->finish_step();
 }
@@ -159,41 +160,49 @@ void ImmersedMarkers::velocities_of_flow(Stage stage)
   if (masses_)
     masses_->couple(*this, *flow_);
   else {
-    flow_->clear_force();
-    const double factor = force->ftm2v;
-    const int outside = filter_
-                            ? flow_->spread(set(), filter_->smooth_forces(rows(atom->f), factor), 1)
-                            : flow_->spread(set(), rows(atom->f), factor);
-    if (outside >= 0) report_outside(outside);
-    if (contrast_ && !estimating_spectrum_) spread_layer();
-    flow_->solve(*stop_, !estimating_spectrum_);
+    solve_flow();
     flow_->interpolate(set(), rows(atom->v));
     if (contrast_ && !estimating_spectrum_) contrast_->read(set(), rows(atom->v));
     if (contrast_ && estimating_spectrum_) contrast_->bound(set(), rows(atom->v));
     if (filter_) filter_->smooth_velocities(rows(atom->v));
-    if (gaps_) gaps_->add(members_, rows(atom->f), factor, rows(atom->v));
+    if (gaps_) gaps_->add(members_, rows(atom->f), force->ftm2v, rows(atom->v));
   }
   constrain_volume(stage);
 }
 
+void ImmersedMarkers::solve_flow()
+{
+  flow_->clear_force();
+  const double factor = force->ftm2v;
+  const int outside = filter_
+                          ? flow_->spread(set(), filter_->smooth_forces(rows(atom->f), factor), 1)
+                          : flow_->spread(set(), rows(atom->f), factor);
+  if (outside >= 0) report_outside(outside);
+  if (contrast_ && !estimating_spectrum_) spread_layer();
+  flow_->solve(*stop_, !estimating_spectrum_);
+}
+
 void ImmersedMarkers::find_surfaces()
 {
-  const int outside = contrast_->find_surfaces(set());
+  contrast_->find_surfaces();
+  const int outside = contrast_->find_seen(set());
   if (outside >= 0) report_outside(outside);
   stop_->check();
 }
 
-void ImmersedMarkers::complete_flow()
+void ImmersedMarkers::finish_velocity()
 {
-  if (contrast_ && !contrast_->knows_surfaces()) find_surfaces();
-  if (implicit_.flow_is_behind()) {
-    load(atom->v, found_);
-    velocities_of_flow(Stage::within);
-    store(found_, atom->v);
-    implicit_.flow_is_complete();
-  }
-  if (excess_is_behind_) contrast_->find_excess(set());
-  excess_is_behind_ = false;
+  if (!implicit_.flow_is_behind()) return;
+  implicit_.flow_is_complete();
+  if (!contrast_->knows_surfaces()) contrast_->find_surfaces();
+  solve_flow();
+}
+
+void ImmersedMarkers::finish_viscosity()
+{
+  if (!std::exchange(viscosity_is_behind_, false)) return;
+  if (!contrast_->knows_surfaces()) contrast_->find_surfaces();
+  contrast_->find_excess(set());
 }
 
 /* ----------------------------------------------------------------------
@@ -234,14 +243,17 @@ void ImmersedMarkers::remove_volume_change()
 
 /* ---------------------------------------------------------------------- */
 
-void ImmersedMarkers::apply_mobility(double factor, Numbers &response)
+void ImmersedMarkers::apply_mobility(bool with_forces, Numbers &response)
 {
   const std::size_t all = 3 * static_cast<std::size_t>(atom->nlocal);
-  applied_.resize(all);
   response.resize(all);
-  for (int i : members_)
-    for (int d = 0; d < 3; ++d) applied_[3 * std::size_t(i) + d] = factor * atom->f[i][d];
-  const double *const felt = filter_ ? filter_->smooth_forces(applied_.data(), 1) : applied_.data();
+  const double *felt = nullptr;
+  if (with_forces) {
+    applied_.resize(all);
+    for (int i : members_)
+      for (int d = 0; d < 3; ++d) applied_[3 * std::size_t(i) + d] = force->ftm2v * atom->f[i][d];
+    felt = filter_ ? filter_->smooth_forces(applied_.data(), 1) : applied_.data();
+  }
   int outside;
   if (contrast_) {
     const auto moving = contrast_->layer(set());
@@ -252,7 +264,7 @@ void ImmersedMarkers::apply_mobility(double factor, Numbers &response)
     outside = flow_->apply_mobility(set(), felt, response.data());
   if (outside >= 0) report_outside(outside);
   if (filter_) filter_->smooth_velocities(response.data());
-  if (gaps_) gaps_->add(members_, applied_.data(), 1, response.data());
+  if (gaps_ && with_forces) gaps_->add(members_, applied_.data(), 1, response.data());
 }
 
 /* ---------------------------------------------------------------------- */

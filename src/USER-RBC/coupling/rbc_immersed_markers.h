@@ -2,6 +2,7 @@
 #define LMP_RBC_IMMERSED_MARKERS_H
 
 #include "coupling/rbc_implicit_velocity.h"
+#include "coupling/rbc_unfinished_flow.h"
 #include "fluid/flow.h"
 #include "motion/motion.h"
 #include "support/rbc_step_part.h"
@@ -23,7 +24,10 @@ class MassiveMarkers;
 ///   forces -> spread -> solve -> interpolate -> velocities,
 /// and may be evaluated any number of times. Positions, velocities and forces are those of LAMMPS's
 /// atoms. All calls are collective.
-class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers {
+class ImmersedMarkers : public rbc::Motion,
+                        public StepPart,
+                        public UnfinishedFlow,
+                        protected Pointers {
  public:
   struct Settings {
     fluid::KernelKind kernel = fluid::default_kernel;
@@ -98,9 +102,8 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
   /// Changes atom->v such that no volume changes.
   void remove_volume_change();
 
-  /// Makes the flow that of the velocities of the last evaluation, for output; within a step it may
-  /// be left as it was before they were found.
-  void complete_flow();
+  void finish_velocity() override;
+  void finish_viscosity() override;
 
   /// All forces at the positions and with the velocities of the atoms, as Verlet computes them at
   /// the end of a step.
@@ -110,11 +113,11 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
   /// their volumes. No solve.
   void interpolate();
 
-  /// Computes the velocities that further forces `factor` * atom->f on the markers would give them,
-  /// and, where the flow depends on velocities, further velocities atom->v. Walls are left out.
-  /// `response` becomes three numbers for each of the nlocal atoms, valid for
-  /// members(). Costs one solve of the flow.
-  void apply_mobility(double factor, rbc::Numbers &response);
+  /// Computes the velocities that further forces atom->f on the markers would give them, if there
+  /// are any, and, where the flow depends on velocities, further velocities atom->v. Walls are left
+  /// out. `response` becomes three numbers for each of the nlocal atoms, valid for members(). Costs
+  /// one solve of the flow.
+  void apply_mobility(bool with_forces, rbc::Numbers &response);
 
   fluid::MarkerSet set() const;
   double fastest() const;
@@ -163,14 +166,15 @@ class ImmersedMarkers : public rbc::Motion, public StepPart, protected Pointers 
   ViscosityContrast *contrast_ = nullptr;
   std::shared_ptr<CollectiveStop> stop_;
   rbc::Stopwatch exchanging_;
-  bool excess_is_behind_ = false;    ///< the viscosity of the grid is of an earlier evaluation
+  std::shared_ptr<UnfinishedFlow> unfinished_;    ///< this, for the flow
+  bool viscosity_is_behind_ = false;              ///< that of the grid is of an earlier evaluation
   bool estimating_spectrum_ = false, any_speed_between_steps_ = false;
   int parts_ = 1;           ///< of the step
-  rbc::Numbers found_;      ///< velocities
   rbc::Numbers applied_;    ///< a row for each atom here
 
   double *rows(double **array) const { return members_.empty() ? nullptr : array[0]; }
   void find_surfaces();
+  void solve_flow();
   void spread_layer();
   void evaluate(const rbc::Numbers &x, double fraction, Stage stage, rbc::Numbers &v);
   void report_too_fast(Stage stage);

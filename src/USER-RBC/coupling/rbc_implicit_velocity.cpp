@@ -4,7 +4,6 @@
 #include "cells/rbc_cell_membranes.h"
 #include "coupling/rbc_driven_flow.h"
 #include "coupling/rbc_immersed_markers.h"
-#include "force.h"
 
 #include <cmath>
 
@@ -128,9 +127,9 @@ void ImplicitVelocity::response(const Numbers &p, Numbers &v)
 {
   v.assign(p.size(), 0.0);
   markers_.store(p, atom->v);
-  markers_.store(v, atom->f);
+  if (!viscous_.empty()) markers_.store(v, atom->f);
   for (CellMembranes *cells : viscous_) cells->add_viscous_change();
-  markers_.apply_mobility(force->ftm2v, response_);
+  markers_.apply_mobility(!viscous_.empty(), response_);
   const std::vector<int> &members = markers_.members();
   for (std::size_t n = 0; n < members.size(); ++n)
     for (int d = 0; d < 3; ++d) v[3 * n + d] = -response_[3 * std::size_t(members[n]) + d];

@@ -176,6 +176,7 @@ void TimeSteps::show_velocities()
 {
   markers_.load(atom->f, V_new_);
   markers_.velocities_from_forces(ImmersedMarkers::Stage::start);
+  flow_->finish_evaluation();
   markers_.store(V_, atom->v);
   markers_.store(V_new_, atom->f);
   flow_->release_walls(true);
@@ -224,7 +225,6 @@ void TimeSteps::finish()
     flow_->set_time_now();
     if (std::exchange(velocities_known_, false)) {
       markers_.constrain_volume(ImmersedMarkers::Stage::start);
-      markers_.complete_flow();
     } else
       markers_.velocities_from_forces(ImmersedMarkers::Stage::start);
   }
@@ -343,7 +343,7 @@ void TimeSteps::check_result()
         fmt::format("{}: displacements grew as in an unstable step at step {}", style_, step()),
         Flaw::unstable);
   if (tries_ == 1 && !integrator_->was_sudden() && !markers_.is_nearly_folded()) return;
-  V_new_ = V_;
+  markers_.load(atom->v, V_new_);    // of the last stage, a guess
   markers_.velocity_at_end(X_new_, V_new_);
   velocities_known_ = true;
 }
@@ -352,7 +352,7 @@ void TimeSteps::measure_error()
 {
   markers_.store(X_new_, atom->x);
   report_crossings();
-  V_new_ = V_;
+  markers_.load(atom->v, V_new_);    // of the last stage, a guess
   markers_.velocity(X_new_, 1.0, V_new_);
   velocities_known_ = true;
   local_error_ = rbc::StepControl::error(markers_, update->dt, X_, X_new_, V_, V_new_, scratch_);

@@ -46,7 +46,7 @@ void ViscosityContrast::start_run(DrivenFlow *flow, const std::vector<CellMembra
 
 /* ---------------------------------------------------------------------- */
 
-int ViscosityContrast::find_surfaces(const fluid::MarkerSet &markers)
+void ViscosityContrast::find_surfaces()
 {
   stopwatch_.start();
   strength_.assign(3 * std::size_t(atom->nlocal), 0.0);
@@ -59,11 +59,15 @@ int ViscosityContrast::find_surfaces(const fluid::MarkerSet &markers)
             place_[3 * std::size_t(i) + d] = place[d];
           }
         });
+  knows_surfaces_ = true;
+  stopwatch_.stop();
+}
+
+int ViscosityContrast::find_seen(const fluid::MarkerSet &markers)
+{
   const double mean = total_excess() / flow_->box_volume();
   unit_.assign(strength_.size(), 1.0);
   seen_.resize(strength_.size());
-  knows_surfaces_ = true;
-  stopwatch_.stop();
   const fluid::DoubleLayer unit{unit_.data(), strength_.data()};
   return flow_->apply_mobility(markers, nullptr, seen_.data(), &unit, {mean, mean, mean});
 }

@@ -44,9 +44,12 @@ class ViscosityContrast : public StepPart, protected Pointers {
   void atoms_migrated() { knows_surfaces_ = false; }
   bool knows_surfaces() const { return knows_surfaces_; }
 
-  /// Finds the surfaces of the cells, where the atoms are now, and what vertices see of the
-  /// viscosity. Returns the first marker whose kernel leaves the ghost layers, or -1. Collective.
-  int find_surfaces(const fluid::MarkerSet &markers);
+  /// Finds the surfaces of the cells, where the atoms are now. Not collective.
+  void find_surfaces();
+
+  /// Finds what vertices see of the viscosity, with these surfaces. Costs a solve. Returns the
+  /// first marker whose kernel leaves the ghost layers, or -1. Collective.
+  int find_seen(const fluid::MarkerSet &markers);
 
   /// Finds the viscosity on the grid inside of these surfaces, for output. Collective.
   void find_excess(const fluid::MarkerSet &markers);
