@@ -40,7 +40,8 @@ RATES = 10, 60, 100                          # 1/s
 KINDS = {"a": 2.0e-4, "r": 0.0}              # work of adhesion, mJ/m^2
 WORDS = {"a": "adhesive", "r": "repulsive"}
 NAMES = [f"{kind}{rate}" for kind in KINDS for rate in RATES]
-OPTIONS = "cells", "shape", "volume", "dx", "kernel"    # of this script that the input takes
+OPTIONS = ("cells", "shape", "volume", "dx", "kernel", "courant",
+           "seconds")                        # of this script that the input takes
 SECONDS = "core_seconds.txt"                 # in the folder of a run
 SETTLED = 10                                 # strain from which means are taken
 REACH = 0.6                                  # gaps that count, um
@@ -58,6 +59,26 @@ def log_table(path):
             break
         rows.append(line.split())
     return dict(zip(names, np.array(rows, dtype=float).T))
+
+
+def logs(folder):
+    """Of the pieces of a run."""
+    return sorted(folder.glob("log.lammps*"))
+
+
+def history(folder):
+    """Tables of the logs of all pieces, one after the other; the first step of a piece is the last
+    of the one before."""
+    first, *others = [log_table(log) for log in logs(folder)]
+    for table in others:
+        table["f_ib[8]"] += first["f_ib[8]"][-1]    # counted from the start of each piece
+        first = {name: np.concatenate([first[name], table[name][1:]]) for name in first}
+    return first
+
+
+def is_finished(folder):
+    """Whether the last piece of the run went to its end."""
+    return logs(folder) and "Wall time limit reached" not in logs(folder)[-1].read_text()
 
 
 def box(log):
@@ -106,7 +127,7 @@ def aggregate_statistics(folder, cells, table, start):
 def measure(folder):
     log = (folder / "log.lammps").read_text(encoding="utf-8")
     cells = int(re.search(r"^Created (\d+) cells", log, re.MULTILINE)[1])
-    table, volumes = log_table(folder / "log.lammps"), read_ave_time(folder / "cell.dat").column(6)
+    table, volumes = history(folder), read_ave_time(folder / "cell.dat").column(6)
     strain = table["v_sheared"]
     start = min(SETTLED, strain[-1] / 2)
     pairs = gaps(folder, box(log))
@@ -137,7 +158,7 @@ def draw(cases, pictures, path):
     axes = curves.subplot_mosaic([["viscosity", "sizes", "gaps"]])
     axes.update(cells.subplot_mosaic([list(pictures)]))
     axes["sizes"].set_xticks(range(10), [str(2**n) for n in range(10)])
-    bars = [name for name in cases if name[0] == "a"]
+    bars = [name for name in cases if name[0] == "a"] or list(cases)
     for name, case in cases.items():
         color, line = COLORS[RATES.index(int(name[1:]))], "-" if name[0] == "a" else "--"
         label = f"{name[1:]} /s, {WORDS[name[0]]}"
@@ -152,10 +173,10 @@ def draw(cases, pictures, path):
     axes["gaps"].set(xlabel="least gap of two neighbors (um)", ylabel="pairs (%)")
     for name in ("viscosity", "sizes", "gaps"):
         axes[name].legend(frameon=False, fontsize=8)
-    for rate, picture in pictures.items():
-        axes[rate].axis("off")
-        axes[rate].imshow(plt.imread(picture))
-        axes[rate].set_title(f"{rate} /s, adhesive: a color for each aggregate", fontsize=10)
+    for case, picture in pictures.items():
+        axes[case].axis("off")
+        axes[case].imshow(plt.imread(picture))
+        axes[case].set_title(f"{case}: a color for each aggregate", fontsize=10)
     figure.savefig(path, dpi=110)
 
 
@@ -172,14 +193,20 @@ def made_templates(folder):
 
 
 def run_case(arguments, name, folder):
-    """Runs in.suspension in a folder, which keeps the seconds of processors that it took."""
+    """Runs in.suspension, or its next piece, in a folder, which keeps the seconds of processors
+    that all pieces took."""
     folder.mkdir(parents=True, exist_ok=True)
+    pieces = len(logs(folder))
     before = example_study.processor_seconds()
     variables = {"rate": name[1:], "sigma": KINDS[name[0]],
-                 **{name: getattr(arguments, name) for name in OPTIONS}}
+                 **{name: getattr(arguments, name) for name in OPTIONS},
+                 "pieces": pieces}
     done = example_study.run_script(arguments, HERE / "in.suspension", folder, variables,
-                                    made_templates(folder.parent), log="log.lammps")
+                                    made_templates(folder.parent),
+                                    log=f"log.lammps.{pieces + 1}" if pieces else "log.lammps")
     seconds = example_study.processor_seconds() - before
+    if pieces:
+        seconds += float((folder / SECONDS).read_text(encoding="utf-8"))
     (folder / SECONDS).write_text(f"{seconds:.1f}\n", encoding="utf-8")
     said = re.findall(r"^(?:ERROR|WARNING).*", done.stdout, re.MULTILINE)
     print(name, *said, sep="\n", flush=True)
@@ -202,6 +229,9 @@ def options():
     parser.add_argument("--volume", type=float, default=89.30, help="of the shape as meshed, um^3")
     parser.add_argument("--dx", type=float, default=0.8)
     parser.add_argument("--kernel", default="roma3")
+    parser.add_argument("--courant", type=float, default=1)
+    parser.add_argument("--seconds", type=int, default=0,
+                        help="that a run may take; the next call goes on from its end")
     return parser
 
 
@@ -209,13 +239,14 @@ def main():
     arguments = command_line.parse(options(), HERE)
     folder = example_study.runs_folder(arguments)
     for name in NAMES:
-        if example_study.wanted(arguments, name) and not (folder / name / "log.lammps").exists():
+        if example_study.wanted(arguments, name) and not is_finished(folder / name):
             run_case(arguments, name, folder / name)
     names = [name for name in NAMES if (folder / name / "log.lammps").exists()]
     cases = {name: measure(folder / name) for name in names}
     for name, case in cases.items():
         print(name, {key: value for key, value in case.items() if np.isscalar(value)}, flush=True)
-    pictures = {name[1:]: draw_cells(folder / name) for name in names if name[0] == "a"}
+    shown = [name for name in names if name[0] == "a"] or names
+    pictures = {f"{name[1:]} /s, {WORDS[name[0]]}": draw_cells(folder / name) for name in shown}
     write(cases, arguments.output / "suspension.csv")
     draw(cases, pictures, arguments.output / "suspension.png")
 
