@@ -121,6 +121,29 @@ class Ranks(unittest.TestCase):
             self.assertGreater(np.sum(forces * moves), 0)
 
 
+def radius(contrast):
+    """Of the spectrum of an elastic sphere, as integrator rkc finds it."""
+    result = run(scene(
+        boundary="boundary p p p", box=f"region box block 0 {BOX} 0 {BOX} 0 {BOX}",
+        molecule=f"molecule rbc {POTENTIALS}/capsule_642.mol", cells="rbc/create rbc single 3.02 2.95 3.01",
+        neighbor="neighbor 0.3 bin", fluid=f"fix flow all rbc/fluid dx 0.25 viscosity {VISCOSITY}", timestep="timestep 0.5",
+        membrane=f"fix mem all rbc/membrane rbc neo-hookean 1.0 volume yes interior {contrast * VISCOSITY}",
+        ib="fix ib all rbc/ib flow tol 1e-3 integrator rkc auto", thermo="thermo_style custom step f_ib[6]", run="run 1"))
+    return result.thermo["f_ib[6]"][-1]
+
+
+class Spectrum(unittest.TestCase):
+    def test_fastest_modes_relax_as_between_two_fluids(self):
+        # short waves are those of a plane between both, slower than the longest by no more than Lamb's strain
+        contrasts = 1, 0.2, 5, 20
+        alike, *others = in_parallel(radius, [(contrast,) for contrast in contrasts])
+        for contrast, found in zip(contrasts[1:], others):
+            short, long = 2 / (1 + contrast), 5 / (3 + 2 * contrast)
+            print(f"\ninside {contrast} times as viscous: {found / alike:.3f} of the rate, a plane {short:.3f}, strain {long:.3f}")
+            self.assertGreater(found / alike, min(short, long))
+            self.assertLess(found / alike, max(short, long))
+
+
 class Steps(unittest.TestCase):
     def test_flow_is_known_after_atoms_were_sorted(self):
         # the velocities that end a step were found before LAMMPS gave the atoms other numbers

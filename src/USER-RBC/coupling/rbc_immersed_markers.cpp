@@ -112,6 +112,16 @@ void ImmersedMarkers::velocity_at_end(const Numbers &x, Numbers &v)
   evaluate(x, 1, Stage::end, v);
 }
 
+/* ----------------------------------------------------------------------
+   All velocities of an estimate are read alike, so that their differences are no noise.
+------------------------------------------------------------------------- */
+
+void ImmersedMarkers::estimate_spectrum(bool on)
+{
+  estimating_spectrum_ = on;
+  surfaces_are_of_estimate_ = false;
+}
+
 void ImmersedMarkers::evaluate(const Numbers &x, double fraction, Stage stage, Numbers &v)
 {
   store(x, atom->x);
@@ -144,7 +154,8 @@ void ImmersedMarkers::velocity_at_start(const Numbers & /*x*/, Numbers &v)
 
 void ImmersedMarkers::velocities_from_forces(Stage stage)
 {
-  if (contrast_ && !estimating_spectrum_) find_surfaces();
+  if (contrast_ && !surfaces_are_of_estimate_) find_surfaces();
+  surfaces_are_of_estimate_ = estimating_spectrum_;
   if (implicit_.acts() && !estimating_spectrum_)
     implicit_.solve(stage);
   else
@@ -162,8 +173,7 @@ void ImmersedMarkers::velocities_of_flow(Stage stage)
   else {
     solve_flow();
     flow_->interpolate(set(), rows(atom->v));
-    if (contrast_ && !estimating_spectrum_) contrast_->read(set(), rows(atom->v));
-    if (contrast_ && estimating_spectrum_) contrast_->bound(set(), rows(atom->v));
+    if (contrast_) contrast_->read(set(), rows(atom->v));
     if (filter_) filter_->smooth_velocities(rows(atom->v));
     if (gaps_) gaps_->add(members_, rows(atom->f), force->ftm2v, rows(atom->v));
   }
@@ -178,6 +188,7 @@ void ImmersedMarkers::solve_flow()
                           ? flow_->spread(set(), filter_->smooth_forces(rows(atom->f), factor), 1)
                           : flow_->spread(set(), rows(atom->f), factor);
   if (outside >= 0) report_outside(outside);
+  if (contrast_ && estimating_spectrum_) contrast_->leave_out_layer();
   if (contrast_ && !estimating_spectrum_) spread_layer();
   flow_->solve(*stop_, !estimating_spectrum_);
 }
@@ -205,9 +216,7 @@ void ImmersedMarkers::finish_viscosity()
   contrast_->find_excess(set());
 }
 
-/* ----------------------------------------------------------------------
-   Not for estimates of the spectrum, which need no more than a bound.
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 void ImmersedMarkers::spread_layer()
 {

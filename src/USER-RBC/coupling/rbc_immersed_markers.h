@@ -82,7 +82,8 @@ class ImmersedMarkers : public rbc::Motion,
   void velocity_at_end(const rbc::Numbers &x, rbc::Numbers &v);
   void sum(double *values, int count) const override;
   std::int64_t label(std::size_t point) const override;
-  void estimate_spectrum(bool on) override { estimating_spectrum_ = on; }
+  void estimate_spectrum(bool on) override;
+  void complete_change(rbc::Numbers &change) override { implicit_.complete_change(change); }
   void divide_step(int parts) override { parts_ = parts; }
 
   using Stage = EvaluationStage;
@@ -168,6 +169,7 @@ class ImmersedMarkers : public rbc::Motion,
   rbc::Stopwatch exchanging_;
   std::shared_ptr<UnfinishedFlow> unfinished_;    ///< this, for the flow
   bool viscosity_is_behind_ = false;              ///< that of the grid is of an earlier evaluation
+  bool surfaces_are_of_estimate_ = false;
   bool estimating_spectrum_ = false, any_speed_between_steps_ = false;
   int parts_ = 1;           ///< of the step
   rbc::Numbers applied_;    ///< a row for each atom here

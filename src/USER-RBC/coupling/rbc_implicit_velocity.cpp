@@ -19,6 +19,10 @@ static constexpr int MOST_ROUNDS = 20;
 
 static constexpr double MARGIN = 0.7;
 
+// error of a change of velocities in an estimate, relative to it
+
+static constexpr double ESTIMATE_ERROR = 0.02;
+
 /* ---------------------------------------------------------------------- */
 
 void ImplicitVelocity::set_limits(double tolerance, int max_iterations)
@@ -76,7 +80,11 @@ void ImplicitVelocity::solve(EvaluationStage stage)
 
     markers_.store(guess_, atom->v);
     for (CellMembranes *cells : viscous_) cells->linearise(frozen);
-    const double left = solve_linear(rounds ? allowed / 2 : contrast_ ? MARGIN * allowed : allowed);
+    const double left = solve_linear(rounds      ? allowed / 2
+                                     : contrast_ ? MARGIN * allowed
+                                                 : allowed,
+                                     Dependence::all);
+    iterations_ += gmres_.iterations();
     correct_forces();
     markers_.store(guess_, atom->v);
     flow_is_behind_ = contrast_ && !rounds;
@@ -104,32 +112,41 @@ double ImplicitVelocity::find_residual()
   return std::sqrt(dot(markers_, residual_, residual_));
 }
 
-double ImplicitVelocity::solve_linear(double tolerance)
+double ImplicitVelocity::solve_linear(double tolerance, Dependence dependence)
 {
-  correction_.assign(guess_.size(), 0.0);
-  const double left = gmres_.solve(
-      [this](const Numbers &p, Numbers &result) {
-        response(p, result);
+  correction_.assign(residual_.size(), 0.0);
+  return gmres_.solve(
+      [this, dependence](const Numbers &p, Numbers &result) {
+        response(p, dependence, result);
         for (std::size_t i = 0; i < p.size(); ++i) result[i] += p[i];
       },
       markers_, residual_, tolerance, correction_);
-  iterations_ += gmres_.iterations();
-  return left;
+}
+
+void ImplicitVelocity::complete_change(Numbers &change)
+{
+  if (!contrast_) return;
+  residual_ = change;
+  solve_linear(ESTIMATE_ERROR * std::sqrt(dot(markers_, change, change)), Dependence::layers);
+  change = correction_;
 }
 
 /* ----------------------------------------------------------------------
    Computes v = (M Z - D) p: minus the velocities that viscous forces of the membranes and double
-   layers cause if the atoms move with p. Overwrites atom->v and atom->f. Costs one solve of the
-   flow.
+   layers cause if the atoms move with p; with layers alone, -D p. Overwrites atom->v and atom->f.
+   Costs one solve of the flow.
 ------------------------------------------------------------------------- */
 
-void ImplicitVelocity::response(const Numbers &p, Numbers &v)
+void ImplicitVelocity::response(const Numbers &p, Dependence dependence, Numbers &v)
 {
+  const bool viscous = dependence == Dependence::all && !viscous_.empty();
   v.assign(p.size(), 0.0);
   markers_.store(p, atom->v);
-  if (!viscous_.empty()) markers_.store(v, atom->f);
-  for (CellMembranes *cells : viscous_) cells->add_viscous_change();
-  markers_.apply_mobility(!viscous_.empty(), response_);
+  if (viscous) {
+    markers_.store(v, atom->f);
+    for (CellMembranes *cells : viscous_) cells->add_viscous_change();
+  }
+  markers_.apply_mobility(viscous, response_);
   const std::vector<int> &members = markers_.members();
   for (std::size_t n = 0; n < members.size(); ++n)
     for (int d = 0; d < 3; ++d) v[3 * n + d] = -response_[3 * std::size_t(members[n]) + d];

@@ -49,6 +49,10 @@ class ImplicitVelocity : protected Pointers {
   /// the flow in each round.
   void solve(EvaluationStage stage);
 
+  /// Makes the change of velocities that given forces cause, where no velocity depends on others,
+  /// what it is with double layers; without the viscosity of membranes. For estimates. Collective.
+  void complete_change(rbc::Numbers &change);
+
   /// Whether the flow is that of velocities other than those found last.
   bool flow_is_behind() const { return flow_is_behind_; }
   void flow_is_complete() { flow_is_behind_ = false; }
@@ -82,8 +86,9 @@ class ImplicitVelocity : protected Pointers {
 
   bool needs_rounds() const;
   double find_residual();
-  double solve_linear(double tolerance);
-  void response(const rbc::Numbers &p, rbc::Numbers &v);
+  enum class Dependence { all, layers };
+  double solve_linear(double tolerance, Dependence dependence);
+  void response(const rbc::Numbers &p, Dependence dependence, rbc::Numbers &v);
   void correct_forces();
 };
 

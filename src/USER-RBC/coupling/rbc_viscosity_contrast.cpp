@@ -180,19 +180,6 @@ void ViscosityContrast::read(const fluid::MarkerSet &markers, double *velocity) 
   }
 }
 
-/* ----------------------------------------------------------------------
-   Fluid that is more viscous makes nothing faster, and one that is less makes nothing faster than
-   if all fluid were so.
-------------------------------------------------------------------------- */
-
-void ViscosityContrast::bound(const fluid::MarkerSet &markers, double *velocity) const
-{
-  double least = 1;
-  for (const Kind &kind : kinds_) least = std::min(least, 1 + kind.excess);
-  for (int n = 0; n < markers.count; ++n)
-    for (int d = 0; d < 3; ++d) velocity[3 * std::size_t(markers.index[n]) + d] /= least;
-}
-
 /* ---------------------------------------------------------------------- */
 
 std::size_t ViscosityContrast::bytes() const

@@ -62,12 +62,12 @@ class ViscosityContrast : public StepPart, protected Pointers {
   };
   Moving layer(const fluid::MarkerSet &markers);
 
+  /// Instead: there is no layer, the membranes are taken to be at rest.
+  void leave_out_layer() { wrong_.assign(strength_.size(), 0.0); }
+
   /// Makes velocities of the markers, three numbers for each of this rank's atoms, of what they see
   /// of w with the last layer.
   void read(const fluid::MarkerSet &markers, double *velocity) const;
-
-  /// The same without a layer, for estimates of the spectrum: a bound.
-  void bound(const fluid::MarkerSet &markers, double *velocity) const;
 
   void report_to(const std::shared_ptr<CollectiveStop> & /*stop*/) override {}
   std::vector<Section> sections() override { return {{"Contrast", &stopwatch_}}; }

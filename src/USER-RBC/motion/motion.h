@@ -35,6 +35,10 @@ class Motion {
   /// walls), and must not refuse high speeds.
   virtual void estimate_spectrum(bool /*on*/) {}
 
+  /// There velocity() may take velocities on which others depend to be zero. Makes `change`, by
+  /// which positions alone change these velocities, what it is with the dependence.
+  virtual void complete_change(Numbers & /*change*/) {}
+
   /// The step is taken as that many equal parts, one after the other: what a point may cross in a
   /// step is what it may cross in a part. 1 is the rule.
   virtual void divide_step(int /*parts*/) {}

@@ -16,6 +16,7 @@ double SpectralRadius::estimate(Motion &motion, const Numbers &x, const Numbers 
     for (std::size_t i = 0; i < n; ++i) displaced_[i] = x[i] + scale * mode[i];
     motion.velocity(displaced_, 0, changed_);
     for (std::size_t i = 0; i < n; ++i) mode[i] = changed_[i] - velocity[i];
+    motion.complete_change(mode);
     const double before = radius;
     radius = root_mean_square(motion, mode) / size;
     const bool steady = std::abs(radius - before) <= tolerance * radius;
