@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""Cost of a step of dense blood whose cells have an inside of another viscosity, over that with one
+viscosity, which runs before each of them. Runs examples/blood/in.blood with 11 to 13 cells of 40 %
+in a small box; writes contrast.csv to a folder and prints it.
+
+contrast.py --output FOLDER [--lmp ../build/lmp_rbc]
+"""
+import csv
+import re
+import sys
+import tempfile
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "scripts"))
+import command_line  # noqa: E402
+import example_study  # noqa: E402
+
+PLASMA = 1.4965                      # mPa s, as in healthy.material
+GRIDS = ("rbc_162", 0.65), ("rbc_362", 0.65), ("rbc_362", 0.5)    # dx in um
+RATIOS = 5, 10, 20, 0.2              # of viscosities, inside over outside
+BOX = {"length": 14, "gap": 12, "strain": 4, "frames": 1000000}
+COLUMNS = ("vertices", "dx", "ratio", "steps", "stages", "solves_per_step", "iterations", "seconds_per_step",
+           "over_one_viscosity", "relative_viscosity")
+
+
+def blood(arguments, shape, dx, ratio):
+    """Steps, stages of the last one, solves and processor seconds of a step, iterations of an
+    evaluation, viscosity at the end."""
+    with tempfile.TemporaryDirectory() as folder:
+        before = example_study.processor_seconds()
+        variables = {**BOX, "shape": shape, "dx": dx, "inside": ratio * PLASMA}
+        printed = example_study.run_script(arguments, HERE.parent / "examples" / "blood" / "in.blood", folder,
+                                           variables).stdout
+        seconds = example_study.processor_seconds() - before
+    solves, steps = map(int, re.search(r"step cost: (\d+) solves in (\d+) steps", printed).groups())
+    table = re.search(r"^ +Step .*?(?=^Loop|^\n)", printed, re.MULTILINE | re.DOTALL).group().strip().splitlines()
+    last = dict(zip(table[0].split(), map(float, table[-1].split())))
+    return steps, last["f_ib[5]"], solves / steps, seconds / steps, last["f_ib[11]"], last["v_relative"]
+
+
+def main():
+    parser = command_line.parser(__doc__)
+    command_line.add_results(parser)
+    parser.add_argument("--lmp", default=str(HERE.parent / "build" / "lmp_rbc"))
+    arguments = command_line.parse(parser, HERE)
+    arguments.ranks = 1
+    with open(arguments.output / "contrast.csv", "w", newline="", encoding="utf-8") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        for row in rows(arguments):
+            writer.writerow(row)
+            stream.flush()
+            print(*row, sep=", ", flush=True)
+
+
+def rows(arguments):
+    yield COLUMNS
+    for shape, dx in GRIDS:
+        for ratio in RATIOS:
+            alone = blood(arguments, shape, dx, 1)
+            if ratio == RATIOS[0]:
+                yield row_of(shape, dx, 1, alone, alone)
+            yield row_of(shape, dx, ratio, blood(arguments, shape, dx, ratio), alone)
+
+
+def row_of(shape, dx, ratio, of_run, alone):
+    steps, stages, solves, seconds, iterations, viscosity = of_run
+    return (shape[4:], dx, ratio, steps, f"{stages:.0f}", f"{solves:.1f}", f"{iterations:.2f}", f"{seconds:.4f}",
+            f"{seconds / alone[3]:.2f}", f"{viscosity:.2f}")
+
+
+if __name__ == "__main__":
+    main()
