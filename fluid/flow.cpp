@@ -100,6 +100,9 @@ void Flow::add_corrected(ForcedVelocity &flow)
   halo_.accumulate(flow.to_correct.views());
   fill_ghosts_of(flow.to_correct, {});
   add(flow.force, 1, sheets_.of(flow.to_correct, flow.kernel, grid_, {}), brick());
+  if (grid_.plates)
+    balance_correction(grid_, brick(), flow.kernel, flow.to_correct, sheets_.curvature(),
+                       flow.into_lower, flow.into_upper);
 }
 
 void Flow::solve(const Forcing &forcing)

@@ -122,6 +122,25 @@ void fold_force(const Grid &grid, const VectorField &force, Real3 &lower, Real3 
   }
 }
 
+void balance_correction(const Grid &grid, const Box &brick, KernelKind kernel,
+                        const VectorField &force, const VectorField &curvature, Real3 &lower,
+                        Real3 &upper_sum)
+{
+  const auto [second, fourth] = sheet_correction(kernel);
+  const int n = brick.extent(0);
+  for (bool upper : {false, true}) {
+    if (brick.empty() || (upper ? brick.hi[2] != grid.cells[2] : brick.lo[2] != 0)) continue;
+    Real3 &sum = upper ? upper_sum : lower;
+    for (int c = 0; c < 3; ++c) {
+      const int next = upper ? grid.cells[2] - 1 : c == 2 ? 1 : 0;
+      const double step = c == 2 ? 1 : 1 - image_factor(grid, c, upper);    // at the plate
+      for (int j = brick.lo[1]; j < brick.hi[1]; ++j)
+        sum[c] += step * (fourth * sum_of(&curvature[c](brick.lo[0], j, next), n) -
+                          second * sum_of(&force[c](brick.lo[0], j, next), n));
+    }
+  }
+}
+
 void fold_source(const Grid &grid, const ScalarField &source)
 {
   const Box &box = source.box();

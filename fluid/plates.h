@@ -3,6 +3,7 @@
 #include "fluid/grid.h"
 #include "fluid/halo.h"
 #include "fluid/mode_solver.h"
+#include "fluid/spreading.h"
 
 namespace fluid {
 
@@ -17,7 +18,14 @@ void reflect_velocity(const Grid &grid, const PlateVelocities &plates, const Vec
 /// into each plate, so that grid and plates together receive all that was spread.
 void fold_force(const Grid &grid, const VectorField &force, Real3 &lower, Real3 &upper);
 
-/// The same for a source at centres of cells: beyond a plate it is folded back onto its image.
+/// Where a folded force f is corrected as the velocity of sheets is, to f - C_2 D f + C_4 D D f, its
+/// sum changes, as do the differences at the plates. `lower` and `upper` gain what keeps the sum of
+/// grid and plates, by `curvature` D f on this rank's brick.
+void balance_correction(const Grid &grid, const Box &brick, KernelKind kernel,
+                        const VectorField &force, const VectorField &curvature, Real3 &lower,
+                        Real3 &upper);
+
+/// Source at centres of cells, spread beyond a plate, is folded back onto its image.
 void fold_source(const Grid &grid, const ScalarField &source);
 
 }    // namespace fluid

@@ -18,6 +18,9 @@ class SheetVelocity {
   const VectorField &of(const VectorField &velocity, KernelKind kernel, const Grid &grid,
                         const PlateVelocities &plates);
 
+  /// The sums of second differences D u of the last velocity.
+  const VectorField &curvature() const { return curvature_; }
+
   std::size_t bytes() const { return curvature_.bytes() + result_.bytes(); }
 
  private:

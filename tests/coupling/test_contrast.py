@@ -159,6 +159,18 @@ class Steps(unittest.TestCase):
             for column in ("f_flow[1]", "f_flow[4]", "f_flow[7]", "f_flow[10]"):
                 np.testing.assert_allclose(within[column][-1], anew[column][-1], rtol=1e-4, err_msg=f"{column}, {ranks} ranks")
 
+    def test_velocities_found_are_those_of_the_flow(self):
+        # so the next run finds nothing to do; forces are rough, which smooth yes counts
+        before, files = push(1e-3 * np.random.default_rng(5).normal(size=(162, 3)))
+        cell = "fix mem all rbc/membrane rbc mooney-rivlin 0.257 0.0257 0.01 bending 2.0e-4 volume yes interior 7.5"
+        for more in ("", " smooth yes", " viscosity 300"):
+            result = run(scene(membrane=cell + more, ib="fix ib all rbc/ib flow tol 1e-6 integrator midpoint",
+                               cells="rbc/create rbc single 6 6 3 rotate 20 0 1 0", before=before,
+                               thermo="thermo_style custom step f_ib[11]", run="run 2\nrun 0"), files=files)
+            first, second = result.tables()
+            self.assertGreater(first["f_ib[11]"][-1], 1)
+            self.assertEqual(second["f_ib[11]"][-1], 0, more)
+
     def test_output_changes_nothing(self):
         # the flow of the velocities found is computed when it is asked for
         cell = "fix mem all rbc/membrane rbc mooney-rivlin 0.257 0.0257 0.01 bending 2.0e-4 volume yes interior 7.5"

@@ -36,21 +36,22 @@ void drive(ForcedFlow &flow)
 
 /// One step; velocities of this rank's markers.
 std::vector<Real3> step(ForcedFlow &flow, const Points &points,
-                        KernelKind kernel = KernelKind::peskin4)
+                        KernelKind kernel = KernelKind::peskin4,
+                        MarkerKind kind = MarkerKind::points)
 {
   flow.clear_force();
-  EXPECT_EQ(flow.spread(points.markers(kernel), points.f(), 1), -1);
+  EXPECT_EQ(flow.spread(points.markers(kernel, kind), points.f(), 1), -1);
   flow.accumulate_ghosts();
   flow.solve();
   flow.fill_ghosts();
   std::vector<Real3> velocity(points.count(), {undefined, undefined, undefined});
-  flow.interpolate(points.markers(kernel), numbers(velocity));
+  flow.interpolate(points.markers(kernel, kind), numbers(velocity));
   return velocity;
 }
 
 /// Plates and applied forces: sums and first moments. A force at height z loads the upper plate by
 /// z/H, exactly so on the grid too, as the mean flow and the kernels reproduce straight lines.
-TEST(Flow, PlatesBearTheForces)
+void check_plates(KernelKind kernel, MarkerKind kind)
 {
   const Grid grid = plates();
   for (const auto &[name, decomposition] : layouts(grid)) {
@@ -59,7 +60,7 @@ TEST(Flow, PlatesBearTheForces)
     drive(flow);
     Points points = scatter(grid, 80, 1);
     assign(points, grid, decomposition);
-    step(flow, points);
+    step(flow, points, kernel, kind);
     const FlowDiagnostics measures = flow.diagnose();
 
     const PlateVelocities &walls = flow.forcing.plates;
@@ -81,6 +82,17 @@ TEST(Flow, PlatesBearTheForces)
       EXPECT_NEAR(area(grid) * measures.upper_traction[c], upper, 1e-11) << "component " << c;
     }
   }
+}
+
+TEST(Flow, PlatesBearTheForces)
+{
+  check_plates(KernelKind::peskin4, MarkerKind::points);
+}
+
+TEST(Flow, PlatesBearTheForcesOfLayers)
+{
+  for (KernelKind kernel : {KernelKind::peskin4, KernelKind::roma3})
+    check_plates(kernel, MarkerKind::layers);
 }
 
 TEST(Flow, AColumnAtRestWeighsOnThePlates)

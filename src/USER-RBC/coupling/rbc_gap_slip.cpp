@@ -71,8 +71,13 @@ void GapSlip::atoms_migrated()
 
 /* ---------------------------------------------------------------------- */
 
+static double part(const double *parts, std::size_t number)
+{
+  return parts ? parts[number] : 1;
+}
+
 void GapSlip::add(const std::vector<int> &members, const double *force, double factor,
-                  double *velocity)
+                  double *velocity, const double *parts)
 {
   stopwatch_.start();
   if (contact_) {
@@ -82,9 +87,12 @@ void GapSlip::add(const std::vector<int> &members, const double *force, double f
     exchange_.add_from_ghosts(slip_);
     for (int i : members)
       if (area_[i] > 0)
-        for (int d = 0; d < 3; ++d) velocity[3 * std::size_t(i) + d] += slip_[i][d] / area_[i];
+        for (int d = 0; d < 3; ++d) {
+          const std::size_t number = 3 * std::size_t(i) + d;
+          velocity[number] += part(parts, number) * slip_[i][d] / area_[i];
+        }
   }
-  slide_along_plates(members, force, factor, velocity);
+  slide_along_plates(members, force, factor, velocity, parts);
   stopwatch_.stop();
 }
 
@@ -128,7 +136,7 @@ void GapSlip::slide(const rbc::VertexContact &contact, double missing)
 /* ---------------------------------------------------------------------- */
 
 void GapSlip::slide_along_plates(const std::vector<int> &members, const double *force,
-                                 double factor, double *velocity) const
+                                 double factor, double *velocity, const double *parts) const
 {
   for (const Plate &plate : plates_) {
     if (!plate.holds) continue;
@@ -138,8 +146,10 @@ void GapSlip::slide_along_plates(const std::vector<int> &members, const double *
       if (gap >= range || area_[i] == 0) continue;
       const double missing = missing_->slide_at_plate(gap / height_) * height_;
       const double mobility = factor * missing / (viscosity_ * area_[i]);
-      for (int d = 0; d < 2; ++d)
-        velocity[3 * std::size_t(i) + d] += mobility * force[3 * std::size_t(i) + d];
+      for (int d = 0; d < 2; ++d) {
+        const std::size_t number = 3 * std::size_t(i) + d;
+        velocity[number] += part(parts, number) * mobility * force[number];
+      }
     }
   }
 }

@@ -173,11 +173,22 @@ void ImmersedMarkers::velocities_of_flow(Stage stage)
   else {
     solve_flow();
     flow_->interpolate(set(), rows(atom->v));
-    if (contrast_) contrast_->read(set(), rows(atom->v));
-    if (filter_) filter_->smooth_velocities(rows(atom->v));
-    if (gaps_) gaps_->add(members_, rows(atom->f), force->ftm2v, rows(atom->v));
+    read_velocities(rows(atom->f), force->ftm2v, rows(atom->v));
   }
   constrain_volume(stage);
+}
+
+/* ----------------------------------------------------------------------
+   Makes of the velocities that kernels see those with which vertices move. The forces times
+   `factor` caused them; null: there are none.
+------------------------------------------------------------------------- */
+
+void ImmersedMarkers::read_velocities(const double *forces, double factor, double *velocity)
+{
+  const double *const parts = contrast_ ? contrast_->parts() : nullptr;
+  if (contrast_) contrast_->read(set(), velocity);
+  if (filter_) filter_->smooth_velocities(velocity, parts);
+  if (gaps_ && forces) gaps_->add(members_, forces, factor, velocity, parts);
 }
 
 void ImmersedMarkers::solve_flow()
@@ -257,6 +268,7 @@ void ImmersedMarkers::apply_mobility(bool with_forces, Numbers &response)
   const std::size_t all = 3 * static_cast<std::size_t>(atom->nlocal);
   response.resize(all);
   const double *felt = nullptr;
+  if (filter_ && !with_forces) filter_->leave_out_forces();
   if (with_forces) {
     applied_.resize(all);
     for (int i : members_)
@@ -268,12 +280,10 @@ void ImmersedMarkers::apply_mobility(bool with_forces, Numbers &response)
     const auto moving = contrast_->layer(set());
     outside =
         flow_->apply_mobility(set(), felt, response.data(), &moving.layer, moving.mean_excess);
-    contrast_->read(set(), response.data());
   } else
     outside = flow_->apply_mobility(set(), felt, response.data());
   if (outside >= 0) report_outside(outside);
-  if (filter_) filter_->smooth_velocities(response.data());
-  if (gaps_ && with_forces) gaps_->add(members_, applied_.data(), 1, response.data());
+  read_velocities(with_forces ? applied_.data() : nullptr, 1, response.data());
 }
 
 /* ---------------------------------------------------------------------- */

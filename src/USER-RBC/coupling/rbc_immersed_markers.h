@@ -177,6 +177,7 @@ class ImmersedMarkers : public rbc::Motion,
   double *rows(double **array) const { return members_.empty() ? nullptr : array[0]; }
   void find_surfaces();
   void solve_flow();
+  void read_velocities(const double *forces, double factor, double *velocity);
   void spread_layer();
   void evaluate(const rbc::Numbers &x, double fraction, Stage stage, rbc::Numbers &v);
   void report_too_fast(Stage stage);

@@ -189,21 +189,27 @@ const double *TractionFilter::smooth_forces(const double *force, double factor)
   return force_[0];
 }
 
+void TractionFilter::leave_out_forces()
+{
+  rough_.assign(atom->nlocal);
+}
+
 /* ----------------------------------------------------------------------
-   P u + slip (1 - P) t' = P (u - slip t') + slip t', with t' = (1 - P) t
+   P u + slip (1 - P) t' = P (u - slip t') + slip t', with t' = (1 - P) t; slip times t' is in rough_
 ------------------------------------------------------------------------- */
 
-void TractionFilter::smooth_velocities(double *velocity)
+void TractionFilter::smooth_velocities(double *velocity, const double *parts)
 {
   stopwatch_.start();
-  filter(
-      [&](const Kind & /*kind*/, int /*v*/, int i) -> Row {
-        return row_of(velocity + 3 * std::size_t(i)) - slip_ * row_of(rough_[i]);
-      },
-      [&](const Kind & /*kind*/, int /*v*/, int i, const Row &smooth) {
-        const Row moves = smooth + slip_ * row_of(rough_[i]);
-        std::copy_n(moves.data(), 3, velocity + 3 * std::size_t(i));
-      });
+  for (int i = 0; i < atom->nlocal; ++i)
+    for (int d = 0; d < 3; ++d)
+      rough_[i][d] *= parts ? slip_ * parts[3 * std::size_t(i) + d] : slip_;
+  filter([&](const Kind & /*kind*/, int /*v*/,
+             int i) -> Row { return row_of(velocity + 3 * std::size_t(i)) - row_of(rough_[i]); },
+         [&](const Kind & /*kind*/, int /*v*/, int i, const Row &smooth) {
+           const Row moves = smooth + row_of(rough_[i]);
+           std::copy_n(moves.data(), 3, velocity + 3 * std::size_t(i));
+         });
   stopwatch_.stop();
 }
 

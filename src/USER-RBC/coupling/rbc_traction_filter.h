@@ -37,9 +37,13 @@ class TractionFilter : public StepPart, protected Pointers {
   /// Valid until the next call. Collective.
   const double *smooth_forces(const double *force, double factor);
 
+  /// Instead of smooth_forces() where there are none. Not collective.
+  void leave_out_forces();
+
   /// Makes of the velocities that the grid gives vertices with these forces those with which they
-  /// move. Other atoms keep theirs. Collective.
-  void smooth_velocities(double *velocity);
+  /// move. Other atoms keep theirs. Where `parts` is not null, each number of the slip of rough
+  /// tractions is multiplied with the one there. Collective.
+  void smooth_velocities(double *velocity, const double *parts);
 
   void report_to(const std::shared_ptr<CollectiveStop> & /*stop*/) override {}
   std::vector<Section> sections() override { return {{"Smoothing", &stopwatch_}}; }

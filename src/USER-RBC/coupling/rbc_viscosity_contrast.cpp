@@ -69,7 +69,15 @@ int ViscosityContrast::find_seen(const fluid::MarkerSet &markers)
   unit_.assign(strength_.size(), 1.0);
   seen_.resize(strength_.size());
   const fluid::DoubleLayer unit{unit_.data(), strength_.data()};
-  return flow_->apply_mobility(markers, nullptr, seen_.data(), &unit, {mean, mean, mean});
+  const int outside =
+      flow_->apply_mobility(markers, nullptr, seen_.data(), &unit, {mean, mean, mean});
+  part_.resize(seen_.size());
+  for (int n = 0; n < markers.count; ++n)
+    for (int d = 0; d < 3; ++d) {
+      const std::size_t number = 3 * std::size_t(markers.index[n]) + d;
+      part_[number] = 1 / (1 + seen_[number]);
+    }
+  return outside;
 }
 
 void ViscosityContrast::find_excess(const fluid::MarkerSet &markers)
@@ -176,7 +184,7 @@ void ViscosityContrast::read(const fluid::MarkerSet &markers, double *velocity) 
   for (int n = 0; n < markers.count; ++n) {
     const std::size_t i = markers.index[n];
     for (int d = 0; d < 3; ++d)
-      velocity[3 * i + d] = (velocity[3 * i + d] - wrong_[3 * i + d]) / (1 + seen_[3 * i + d]);
+      velocity[3 * i + d] = part_[3 * i + d] * (velocity[3 * i + d] - wrong_[3 * i + d]);
   }
 }
 
@@ -185,7 +193,7 @@ void ViscosityContrast::read(const fluid::MarkerSet &markers, double *velocity) 
 std::size_t ViscosityContrast::bytes() const
 {
   std::size_t numbers = 0;
-  for (const auto *values : {&strength_, &place_, &seen_, &wrong_, &unit_})
+  for (const auto *values : {&strength_, &place_, &seen_, &part_, &wrong_, &unit_})
     numbers += values->capacity();
   return numbers * sizeof(double);
 }

@@ -69,6 +69,9 @@ class ViscosityContrast : public StepPart, protected Pointers {
   /// of w with the last layer.
   void read(const fluid::MarkerSet &markers, double *velocity) const;
 
+  /// By how much further velocities count that forces cause without the grid: as in read().
+  const double *parts() const { return part_.data(); }
+
   void report_to(const std::shared_ptr<CollectiveStop> & /*stop*/) override {}
   std::vector<Section> sections() override { return {{"Contrast", &stopwatch_}}; }
   std::size_t bytes() const;
@@ -87,7 +90,8 @@ class ViscosityContrast : public StepPart, protected Pointers {
   // of this rank's atoms, zero for those without
   std::vector<double> strength_;    ///< excess times area times outward normal
   std::vector<double> place_;       ///< position within the cell
-  std::vector<double> seen_;        ///< of the layer with unit velocity
+  std::vector<double> seen_;        ///< of the layer with unit velocity, e
+  std::vector<double> part_;        ///< 1 / (1 + e)
   std::vector<double> wrong_;       ///< what vertices see of w of the last layer, but should not
   std::vector<double> unit_;        ///< velocities
   bool knows_surfaces_ = false;
