@@ -92,6 +92,28 @@ class Mobility(unittest.TestCase):
             self.assertLess(change, high)
 
 
+class Interior(unittest.TestCase):
+    def test_is_the_limit_of_hardly_viscous_membranes(self):
+        # both solve for the velocities, one with tractions in each of its iterations and one without
+        forces = random_forces(6)
+        alone, viscous = in_parallel(velocities, [(forces, f"yes interior 7.5 {more}", ranks, " tol 1e-9")
+                                                  for more, ranks in (("", 1), ("viscosity 1e-9", 2))])
+        self.assertLess(abs(viscous - alone).max() / abs(alone).max(), 1e-6)
+
+
+class OtherAtoms(unittest.TestCase):
+    def test_may_have_a_rank_for_themselves(self):
+        results = in_parallel(
+            lambda atoms, ranks: run(scene(
+                boundary="boundary p p p", processors="processors * 1 1", box="region box block 0 24 0 12 0 12",
+                create_box="create_box 2 box angle/types 1", cells="rbc/create rbc single 6 6 6", before=atoms + "mass * 1.0\ngroup cell type 1",
+                membrane=SHEAR["membrane"].replace("mem all", "mem cell") + " smooth yes",
+                fluid="fix flow all rbc/fluid dx 1 viscosity 1.5 density 1.025", ib="fix ib cell rbc/ib flow integrator midpoint",
+                run="run 2"), ranks),
+            [("", 1), ("create_atoms 2 single 18 6 6\n", 2)])
+        self.assertEqual([result.thermo["Step"][-1] for result in results], [2, 2])
+
+
 class Errors(unittest.TestCase):
     def test_points_have_no_tractions(self):
         smooth = SHEAR["membrane"] + " smooth yes"

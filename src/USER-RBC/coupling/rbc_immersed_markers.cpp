@@ -150,6 +150,15 @@ void ImmersedMarkers::velocity_at_start(const Numbers & /*x*/, Numbers &v)
   load(atom->v, v);
 }
 
+/* ----------------------------------------------------------------------
+   A rank may own atoms of other groups alone: LAMMPS then has their rows, too.
+------------------------------------------------------------------------- */
+
+double *ImmersedMarkers::rows(double **array) const
+{
+  return atom->nlocal > 0 ? array[0] : nullptr;
+}
+
 /* ---------------------------------------------------------------------- */
 
 void ImmersedMarkers::velocities_from_forces(Stage stage)

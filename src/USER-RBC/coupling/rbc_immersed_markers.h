@@ -174,7 +174,7 @@ class ImmersedMarkers : public rbc::Motion,
   int parts_ = 1;           ///< of the step
   rbc::Numbers applied_;    ///< a row for each atom here
 
-  double *rows(double **array) const { return members_.empty() ? nullptr : array[0]; }
+  double *rows(double **array) const;
   void find_surfaces();
   void solve_flow();
   void read_velocities(const double *forces, double factor, double *velocity);
