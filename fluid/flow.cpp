@@ -287,6 +287,7 @@ const VectorField &Flow::fluid_velocity()
 {
   fill_ghosts();
   if (!total_.layered) return total_.velocity;
+  assert(excess_.bytes());
   if (!fluid_velocity_.bytes()) fluid_velocity_ = VectorField(halo_.box());
   for (int c = 0; c < 3; ++c) {
     Box box = halo_.box();

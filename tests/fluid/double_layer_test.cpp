@@ -294,4 +294,90 @@ TEST(DoubleLayer, HalfIsSeen)
     }
 }
 
+/// Two planes between plates, the fluid between them of another viscosity.
+struct Slab {
+  static constexpr int sides = 2, rows = 16;
+
+  Grid grid;
+  KernelKind kernel;
+  double contrast;
+  std::array<double, sides> height;
+  Points points;
+  std::vector<Real3> step;
+  ForcedFlow flow;
+
+  Slab(int cells, KernelKind kernel, double contrast) :
+      grid{{8, 8, cells}, {0, 0, 0}, {4.0 / cells, 4.0 / cells, 4.0 / cells}, true}, kernel(kernel),
+      contrast(contrast), height{1.27, 2.61},
+      flow(grid, even(grid, {1, 1, ranks()}), width, FlowEquations{})
+  {
+    const double side = 8 * grid.spacing[0], each = side / rows;
+    for (int n = 0; n < sides; ++n)
+      for (int i = 0; i < rows; ++i)
+        for (int j = 0; j < rows; ++j) {
+          points.position.push_back({(i + 0.3) * each, (j + 0.6) * each, height[n]});
+          step.push_back({0, 0, (contrast - 1) * each * each * (n == 0 ? -1 : 1)});
+        }
+    points.force.assign(points.count(), {0, 0, 0});
+    assign(points, grid, flow.decomposition());
+  }
+
+  /// What both planes see along x, in the mean over their markers, where they move along x with
+  /// these velocities and the upper plate with `plate`.
+  std::array<double, sides> see(const std::array<double, sides> &moves, double plate)
+  {
+    const MarkerSet markers = points.markers(kernel, MarkerKind::layers);
+    std::vector<Real3> velocity(points.count(), {0, 0, 0}), result = velocity;
+    for (int m = 0; m < points.count(); ++m) velocity[m][0] = moves[m / (rows * rows)];
+    flow.clear_force();
+    flow.forcing.plates.upper = {plate, 0, 0};
+    EXPECT_EQ(flow.spread(markers, DoubleLayer{numbers(velocity), numbers(step)}), -1);
+    flow.accumulate_ghosts();
+    flow.solve();
+    flow.fill_ghosts();
+    flow.interpolate(markers, numbers(result));
+    std::array<double, sides> seen{0, 0};
+    for (int m : points.index) seen[m / (rows * rows)] += result[m][0] / (rows * rows);
+    reduce(MPI_SUM, seen[0], seen[1]);
+    return seen;
+  }
+
+  /// The planes' velocities where the upper plate moves with 1: (1 + e) U = what they see, with e
+  /// what they see of a layer that moves with 1. The flow is then theirs.
+  std::array<double, sides> solve()
+  {
+    const auto unit = see({1, 1}, 0), first = see({1, 0}, 0), second = see({0, 1}, 0),
+               driven = see({0, 0}, 1);
+    const double a = 1 + unit[0] - first[0], b = -second[0], c = -first[1],
+                 d = 1 + unit[1] - second[1];
+    const double determinant = a * d - b * c;
+    const std::array<double, sides> moves{(d * driven[0] - b * driven[1]) / determinant,
+                                          (a * driven[1] - c * driven[0]) / determinant};
+    see(moves, 1);
+    const double mean = (contrast - 1) * (height[1] - height[0]) / 4;
+    const MarkerSet markers = points.markers(kernel, MarkerKind::layers);
+    EXPECT_EQ(flow.find_excess(markers, numbers(step), mean, {-1, 1e3}), -1);
+    return moves;
+  }
+};
+
+/// Shear flow of two viscosities: the stress is the same everywhere. On the grid, too, where kernels
+/// meet neither each other nor the plates.
+TEST(DoubleLayer, SlabInShear)
+{
+  for (KernelKind kernel : kernels)
+    for (int cells : {16, 32})
+      for (double contrast : {0.1, 0.5, 5.0, 100.0}) {
+        Slab slab(cells, kernel, contrast);
+        const auto moves = slab.solve();
+        const double lower = slab.height[0], inside = slab.height[1] - lower;
+        const double stress = 1 / (4 - inside + inside / contrast);
+        EXPECT_NEAR(moves[0], stress * lower, 1e-12);
+        EXPECT_NEAR(moves[1], stress * (lower + inside / contrast), 1e-12);
+        const auto plates = slab.flow.diagnose();
+        EXPECT_NEAR(plates.lower_traction[0], stress, 1e-12);
+        EXPECT_NEAR(plates.upper_traction[0], -stress, 1e-12);
+      }
+}
+
 }    // namespace
