@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""Relaxation of a stretched red cell for several viscosities of its membrane, beside the cells of
-Hochmuth et al. (1979).
+"""Relaxation of a stretched red cell, for two viscosities of its membrane and two shapes in which
+that is free of stress, beside the cells of Hochmuth et al. (1979).
 
-Runs in.relaxation (2 to 5 minutes each on one core) for all cases, or those named with --case,
+Runs in.relaxation (5 to 10 minutes each on one core) for all cases, or those named with --case,
 keeps the curves in relaxation.csv of a folder, draws relaxation.png there and prints the time
 constants. With --draw only the picture and the numbers, from that table, or where there is none
 from that of the repository.
@@ -26,7 +26,9 @@ import numpy as np  # noqa: E402
 
 REFERENCE = HERE.parent / "reference" / "01g_relaxation_hochmuth1979.csv"
 TABLE = "relaxation.csv"
-LABELS = {"thinning": "healthy.material: η_m falls", "300": "η_m = 300 pg/µs", "600": "η_m = 600 pg/µs", "900": "η_m = 900 pg/µs"}
+LABELS = {"thinning": "healthy.material: η_m falls", "rounder": "the same, free of stress in a rounder shape",
+          "600": "η_m = 600 pg/µs"}
+CHANGED = {"thinning": {}, "rounder": dict(sheet="rbc_642_spheroid98")}    # variables; the others are constant viscosities
 
 
 def curve(t, parameters):
@@ -49,10 +51,10 @@ def fit(t, ratio):
 
 
 def measure(lmp, templates, case):
-    constant = [] if case == "thinning" else ["-var", "surface_viscosity", case, "-var", "fast_viscosity", case]
+    changed = CHANGED.get(case, dict(surface_viscosity=case, fast_viscosity=case))
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([lmp, "-in", HERE / "in.relaxation", "-log", "none", "-screen", "none", "-var", "templates", templates,
-                        *constant], cwd=folder, check=True)
+                        *(word for name, value in changed.items() for word in ("-var", name, value))], cwd=folder, check=True)
         return np.loadtxt(Path(folder) / "relaxation.dat")[:, :2].T
 
 
@@ -91,7 +93,7 @@ def main():
     for n, case in enumerate(case for case in LABELS if case in curves):
         t, ratio = curves[case]
         p = fit(t, ratio)
-        axis.plot(t, ratio, ("-", "--", ":", "-.")[n], color="k", lw=2 if n == 0 else 1,
+        axis.plot(t, ratio, ("-", "--", ":")[n], color="k", lw=2 if n == 0 else 1,
                   label=f"{LABELS[case]}: {p[0]:.3f} s")
         inside = "inside" if min(times) <= p[0] <= max(times) else "outside"
         print(f"{case}: tc = {p[0]:.4f} s, L/W from {p[2]:.2f} to {p[1]:.2f}, {inside} the data")

@@ -2,11 +2,11 @@
 """Tank-treading of a red cell beside experiments: frequency, inclination, and the stress below
 which the cell tumbles.
 
-Runs in.tank-treading at many shear rates, a fraction of a minute to two minutes each on one core,
-and keeps what it finds in tank-treading.csv of a folder: all parts, or those named, for which it
-measures anew (--part frequency --case thinning). Then it prints the tables and draws
-tank-treading.png and inclination.png there; with --draw it does only that, from the table of the
-repository if the folder has none.
+Runs in.tank-treading at many shear rates, one to five minutes each on one core, and keeps what it
+finds in tank-treading.csv of a folder: all parts, or those named, for which it measures anew
+(--part frequency --case thinning). Then it prints the tables and draws tank-treading.png and
+inclination.png there; with --draw it does only that, from the table of the repository if the folder
+has none.
 
 study.py --output FOLDER [--part frequency] [--case thinning] [--draw]
 """
@@ -34,10 +34,15 @@ STEP = 0.2    # of the input script
 FASTEST = 200    # shear rate from which it is halved
 
 MEDIUM = 28.9    # of the frequencies, mPa s
-CASES = {"thinning": {}, "600": dict(surface_viscosity=600, fast_viscosity=600)}
-LABELS = {"thinning": "healthy.material: η_m falls", "600": "η_m = 600 pg/µs"}
+COARSE = dict(shape="rbc_162", dx=0.8)
+# free of stress in a spheroid of the same area and 0.98 of a sphere's volume for it
+ROUNDER = dict(COARSE, sheet="rbc_162_spheroid98")
+CASES = {"thinning": {}, "coarse": COARSE, "rounder": ROUNDER, "same inside": dict(COARSE, inside=MEDIUM)}
+LABELS = {"thinning": "healthy.material", "coarse": "the same, 162 vertices", "rounder": "162, free of stress in a rounder shape",
+          "same inside": "162, inside as viscous as the medium"}
 INCLINATION = {23.9: (25.929, 81.559), 55.9: (17.71, 55.55)}    # rates for each medium
-THRESHOLD = 23.9, 8, 20, 2    # medium, rates between which the cell ceases to tumble, halvings
+THRESHOLD = 23.9, 4, 28, 3    # medium, rates between which the cell ceases to tumble, halvings
+LONG = 70    # strain of these runs, with the coarse mesh as there are many
 CONVERGENCE_RATE = 65.169
 CONVERGENCE = {"timestep / 2": dict(step=0.1), "162 vertices, dx 4/5": dict(shape="rbc_162", dx=0.8),
                "642 vertices, dx 2/5": dict(shape="rbc_642", dx=0.4), "642 vertices, dx 1/2": dict(shape="rbc_642"),
@@ -99,17 +104,18 @@ class Study:
             for rate in rates:
                 self.measure("inclination", "thinning", medium, rate)
 
-    def threshold(self, _):
-        medium, low, high, halvings = THRESHOLD
-        for _ in range(halvings):
-            rate = (low + high) / 2
-            row = self.measure("threshold", "thinning", medium, rate, strain=70)
-            if not row:
-                return
-            if tumbles(row):
-                low = rate
-            else:
-                high = rate
+    def threshold(self, cases):
+        for case in cases or ("coarse", "rounder"):
+            medium, low, high, halvings = THRESHOLD
+            for _ in range(halvings):
+                rate = (low + high) / 2
+                row = self.measure("threshold", case, medium, rate, strain=LONG, **CASES[case])
+                if not row:
+                    break
+                if tumbles(row):
+                    low = rate
+                else:
+                    high = rate
 
     def convergence(self, cases):
         for case in cases or CONVERGENCE:
@@ -152,7 +158,7 @@ def draw_frequency(rows, path):
     data = reference("03b_ttf_fischer_28p9mPas_binned.csv")
     figure, axis = plt.subplots(figsize=(7, 4.6))
     axis.errorbar(data[:, 0], data[:, 1], data[:, 2], fmt="ok", capsize=3, label="Fischer, 28.9 mPa s: mean, s.d. over cells")
-    axis.fill_between(data[:, 0], 0.8 * data[:, 1], 1.2 * data[:, 1], alpha=0.12, color="k", label="within 20 %")
+    axis.fill_between(data[:, 0], 0.85 * data[:, 1], 1.15 * data[:, 1], alpha=0.12, color="k", label="within 15 %")
     for n, case in enumerate(CASES):
         mine = sorted((row for row in rows if row.part == "frequency" and row.case == case), key=lambda row: row.rate)
         if not mine:
@@ -191,19 +197,23 @@ def draw_inclination(rows, path):
 
     stress = reference("03d_tt_tb_threshold.csv")
     right.plot(stress[:, 0], stress[:, 1], "ok", mfc="none", label="Fischer 2013, Abkarian 2007: threshold")
-    for n, (tumbling, label) in enumerate(((True, "here: tumbles"), (False, "here: tank-treads"))):
-        mine = [row for row in rows if row.case == "thinning" and tumbles(row) == tumbling]
-        right.plot([row.medium for row in mine], [row.medium * row.rate * 1e-3 for row in mine], "xs"[n], color=f"C{3 - n}", ms=5,
-                   label=label)
+    names = {"coarse": "here", "rounder": "free of stress in a rounder shape"}
+    for shift, case in zip((1, 1.08), names):    # beside each other
+        for n, (tumbling, label) in enumerate(((True, "tumbles"), (False, "tank-treads"))):
+            mine = [row for row in rows if row.case == case and tumbles(row) == tumbling and row.rate < 30]
+            right.plot([row.medium * shift for row in mine], [row.medium * row.rate * 1e-3 for row in mine], "xs"[n], ms=5,
+                       color=f"C{3 - n}" if case == "coarse" else f"C{4 - 3 * n}", mfc="none" if case == "rounder" else None,
+                       label=f"{names[case]}: {label}")
     for row in rows:
         if row.part == "threshold":
             print(f"{describe(row)}; {row.medium * row.rate * 1e-3:.3f} Pa")
     right.set_xscale("log")
     right.set_yscale("log")
+    right.set_ylim(0.03, 30)
     right.set_xlabel("viscosity of the medium / (mPa s)")
     right.set_ylabel("shear stress / Pa")
     for axis in (left, right):
-        axis.legend(fontsize=7)
+        axis.legend(fontsize=7, loc="upper right")
         axis.grid(alpha=0.3)
     figure.tight_layout()
     figure.savefig(path, dpi=110)

@@ -10,9 +10,14 @@ STUDY = study_of("relaxation")
 SHEAR_MODULUS = 5.654e-3    # of healthy.material, pg/us^2
 
 
+PLASMA = 1.4965    # mPa s
+
+
 def time_constant(viscosity):
+    """Of a cell with a membrane of constant viscosity, filled with plasma, the least that a fluid can add."""
     folder = run_example("relaxation", shape="rbc_162", patch=3.3, dx=1, width=12, surface_viscosity=viscosity,
-                         fast_viscosity=viscosity, timestep=2000, duration=600 * viscosity).folder
+                         fast_viscosity=viscosity, inside=PLASMA, sheets="no", timestep=2000,
+                         duration=600 * viscosity).folder
     t, ratio = np.loadtxt(folder / "relaxation.dat")[:, :2].T
     return STUDY.fit(t, ratio)[0]
 
@@ -31,7 +36,7 @@ class Relaxation(unittest.TestCase):
 
     def test_healthy_cell_relaxes_as_those_of_the_experiment(self):
         # measured by the same fit: Hochmuth, Worthy and Evans (1979), four cells
-        folder = run_example("relaxation", shape="rbc_162", patch=3.3, dx=1, width=12, timestep=2000).folder
+        folder = run_example("relaxation", shape="rbc_162", patch=3.3, dx=0.8, width=12, timestep=2000).folder
         found = STUDY.fit(*np.loadtxt(folder / "relaxation.dat")[:, :2].T)[0]
         measured = [STUDY.fit(t, ratio)[0] for t, ratio in STUDY.read(STUDY.REFERENCE).values()]
         print(f"\ntime constant {found:.4f} s, data {min(measured):.4f} to {max(measured):.4f} s")
