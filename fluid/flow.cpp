@@ -252,15 +252,15 @@ void Flow::interpolate(const MarkerSet &markers, double *velocity)
 }
 
 int Flow::apply_mobility(const MarkerSet &markers, const double *force, double *velocity,
-                         const DoubleLayer *layer, const Real3 &mean)
+                         const DoubleLayer *layer, const Real3 &mean, bool with_forces)
 {
   if (!mobility_.velocity.bytes()) {
     if (!mobility_.force.bytes()) mobility_.force = VectorField(halo_.box());
     mobility_.velocity = VectorField(halo_.box());
   }
   mobility_.clear_force();
-  int outside = force ? spread(markers, force, 1.0, mobility_) : -1;
-  if (layer && outside < 0) outside = spread(markers, *layer, mobility_);
+  int outside = with_forces ? spread(markers, force, 1.0, mobility_) : -1;
+  if (layer) outside = std::max(outside, spread(markers, *layer, mobility_));
   accumulate_ghosts_of(mobility_);
   solve_for(mobility_.velocity, mobility_.force, {{}, {0, 0, 0}, mean},
             mobility_.layered ? &mobility_.source : nullptr);
@@ -286,8 +286,7 @@ void Flow::add_mobility_flow(double factor)
 const VectorField &Flow::fluid_velocity()
 {
   fill_ghosts();
-  if (!total_.layered) return total_.velocity;
-  assert(excess_.bytes());
+  if (!total_.layered || !knows_excess_) return total_.velocity;
   if (!fluid_velocity_.bytes()) fluid_velocity_ = VectorField(halo_.box());
   for (int c = 0; c < 3; ++c) {
     Box box = halo_.box();
@@ -324,6 +323,7 @@ int Flow::find_excess(const MarkerSet &markers, const double *step, double mean,
     excess(i, j, k) = std::clamp(excess(i, j, k), bounds[0], bounds[1]);
   });
   halo_.fill(excess_.views());
+  knows_excess_ = true;
   return outside;
 }
 

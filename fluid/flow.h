@@ -70,10 +70,11 @@ class Flow {
   /// first marker whose kernel leaves the ghost layers, or -1; the velocities are valid only if all
   /// ranks return -1. Collective. add_mobility_flow() then adds `factor` times these forces and
   /// their flow to the flow.
-  /// With `layer` the double layer of these velocities adds to the flow, and `force` may be null;
-  /// `mean` is the mean of what is solved for.
+  /// With `layer` the double layer of these velocities adds to the flow; `mean` is the mean of what
+  /// is solved for. Forces may then be left out: all ranks do or none does.
   int apply_mobility(const MarkerSet &markers, const double *force, double *velocity,
-                     const DoubleLayer *layer = nullptr, const Real3 &mean = {0, 0, 0});
+                     const DoubleLayer *layer = nullptr, const Real3 &mean = {0, 0, 0},
+                     bool with_forces = true);
   void add_mobility_flow(double factor);
 
   /// Finds the function of space that is zero outside of closed surfaces of markers and falls
@@ -200,8 +201,9 @@ class Flow {
   bool stepped_ = false;    ///< start_step() was called since construction or restore()
 
   ScalarField pressure_;
-  ForcedVelocity mobility_;       ///< of the last apply_mobility; find_inside uses its force
-  ScalarField excess_;            ///< of the viscosity, relative, with double layers
+  ForcedVelocity mobility_;    ///< of the last apply_mobility; find_inside uses its force
+  ScalarField excess_;         ///< of the viscosity, relative, with double layers
+  bool knows_excess_ = false;
   VectorField fluid_velocity_;    ///< where it is not the velocity solved for
   SheetVelocity sheets_;
   StokesSolver solver_;

@@ -95,7 +95,7 @@ void Flow::take_over(Flow &old)
   };
   move_field(old.total_.velocity, total_.velocity);
   if (old.has_force_ && has_force_) move_field(old.total_.force, total_.force);
-  take_layers(old);
+  if (old.has_force_ && has_force_) take_layers(old);
   if (equations_.inertia != Inertia::none) move_field(old.previous_, previous_);
   if (equations_.inertia == Inertia::convective) move_field(old.rhs_, rhs_);
   if (equations_.inertia == Inertia::convective) fill_ghosts_of(previous_, previous_plates_);
@@ -114,7 +114,8 @@ void Flow::take_layers(const Flow &old)
   };
   total_.layered = old.total_.layered;
   if (total_.layered) move_field(old.total_.source, total_.source);
-  if (!old.excess_.bytes()) return;
+  knows_excess_ = old.knows_excess_;
+  if (!knows_excess_) return;
   move_field(old.excess_, excess_);
   halo_.fill(excess_.views());
 }

@@ -99,6 +99,7 @@ void DrivenFlow::build()
     do_or_run_out(lmp, style_, [&] { flow->take_over(*flow_); });
   }
   flow_ = std::move(flow);
+  if (ghost_layers_ == 0) excess_ = {};
   changed();
 }
 
@@ -267,10 +268,10 @@ DrivenFlow::couple_masses(fluid::DirectForcing &direct,
 
 int DrivenFlow::apply_mobility(const fluid::MarkerSet &markers, const double *force,
                                double *velocity, const fluid::DoubleLayer *layer,
-                               const std::array<double, 3> &excess)
+                               const std::array<double, 3> &excess, bool with_forces)
 {
   solving_.start();
-  const int outside = flow_->apply_mobility(markers, force, velocity, layer, excess);
+  const int outside = flow_->apply_mobility(markers, force, velocity, layer, excess, with_forces);
   solving_.stop();
   return outside;
 }

@@ -137,7 +137,7 @@ class DrivenFlow : public StepPart, protected Pointers {
   /// spread does.
   int apply_mobility(const fluid::MarkerSet &markers, const double *force, double *velocity,
                      const fluid::DoubleLayer *layer = nullptr,
-                     const std::array<double, 3> &excess = {0, 0, 0});
+                     const std::array<double, 3> &excess = {0, 0, 0}, bool with_forces = true);
 
   /// With inertia: the end of the fluid's step. Without: nothing.
   void finish_step();

@@ -51,6 +51,7 @@ void ImmersedMarkers::start_run(DrivenFlow *flow, const std::vector<CellMembrane
     if (cells->keeps_volume()) volume_keepers_.push_back(cells);
   contrast_ = contrast;
   implicit_.start_run(flow, membranes, contrast);
+  between_steps_ = is_read_within_ = false;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -133,6 +134,12 @@ void ImmersedMarkers::evaluate(const Numbers &x, double fraction, Stage stage, N
   recompute_forces();
   velocities_from_forces(stage);
   load(atom->v, v);
+  if (implicit_.acts() && !estimating_spectrum_) last_found_ = v;
+}
+
+void ImmersedMarkers::guess_velocities(Numbers &v) const
+{
+  if (!last_found_.empty()) v = last_found_;
 }
 
 /* ----------------------------------------------------------------------
@@ -182,22 +189,23 @@ void ImmersedMarkers::velocities_of_flow(Stage stage)
   else {
     solve_flow();
     flow_->interpolate(set(), rows(atom->v));
-    read_velocities(rows(atom->f), force->ftm2v, rows(atom->v));
+    read_velocities(true, rows(atom->f), force->ftm2v, rows(atom->v));
   }
   constrain_volume(stage);
 }
 
 /* ----------------------------------------------------------------------
    Makes of the velocities that kernels see those with which vertices move. The forces times
-   `factor` caused them; null: there are none.
+   `factor` caused them, if there are any.
 ------------------------------------------------------------------------- */
 
-void ImmersedMarkers::read_velocities(const double *forces, double factor, double *velocity)
+void ImmersedMarkers::read_velocities(bool with_forces, const double *forces, double factor,
+                                      double *velocity)
 {
   const double *const parts = contrast_ ? contrast_->parts() : nullptr;
   if (contrast_) contrast_->read(set(), velocity);
   if (filter_) filter_->smooth_velocities(velocity, parts);
-  if (gaps_ && forces) gaps_->add(members_, forces, factor, velocity, parts);
+  if (gaps_ && with_forces) gaps_->add(members_, forces, factor, velocity, parts);
 }
 
 void ImmersedMarkers::solve_flow()
@@ -221,8 +229,18 @@ void ImmersedMarkers::find_surfaces()
   stop_->check();
 }
 
+void ImmersedMarkers::between_steps(bool yes)
+{
+  between_steps_ = yes;
+  if (yes && is_read_within_) flow_->finish_evaluation();
+}
+
 void ImmersedMarkers::finish_velocity()
 {
+  if (!between_steps_) {
+    is_read_within_ = true;
+    return;
+  }
   if (!implicit_.flow_is_behind()) return;
   implicit_.flow_is_complete();
   if (!contrast_->knows_surfaces()) contrast_->find_surfaces();
@@ -231,6 +249,7 @@ void ImmersedMarkers::finish_velocity()
 
 void ImmersedMarkers::finish_viscosity()
 {
+  if (!between_steps_) return;
   if (!std::exchange(viscosity_is_behind_, false)) return;
   if (!contrast_->knows_surfaces()) contrast_->find_surfaces();
   contrast_->find_excess(set());
@@ -287,18 +306,19 @@ void ImmersedMarkers::apply_mobility(bool with_forces, Numbers &response)
   int outside;
   if (contrast_) {
     const auto moving = contrast_->layer(set());
-    outside =
-        flow_->apply_mobility(set(), felt, response.data(), &moving.layer, moving.mean_excess);
+    outside = flow_->apply_mobility(set(), felt, response.data(), &moving.layer, moving.mean_excess,
+                                    with_forces);
   } else
     outside = flow_->apply_mobility(set(), felt, response.data());
   if (outside >= 0) report_outside(outside);
-  read_velocities(with_forces ? applied_.data() : nullptr, 1, response.data());
+  read_velocities(with_forces, applied_.data(), 1, response.data());
 }
 
 /* ---------------------------------------------------------------------- */
 
 void ImmersedMarkers::recompute_forces()
 {
+  const bool before = std::exchange(between_steps_, false);
   exchanging_.start();
   comm->forward_comm();
   exchanging_.stop();
@@ -319,118 +339,13 @@ void ImmersedMarkers::recompute_forces()
   if (modify->n_pre_reverse) modify->pre_reverse(eflag, vflag);
   if (force->newton) comm->reverse_comm();
   if (modify->n_post_force_any) modify->post_force(vflag);
-}
-
-/* ---------------------------------------------------------------------- */
-
-bool ImmersedMarkers::is_nearly_folded() const
-{
-  int nearly = 0;
-  for (const CellMembranes *cells : membranes_) nearly |= cells->is_nearly_folded() ? 1 : 0;
-  if (comm->nprocs > 1) MPI_Allreduce(MPI_IN_PLACE, &nearly, 1, MPI_INT, MPI_MAX, world);
-  return nearly != 0;
-}
-
-/* ----------------------------------------------------------------------
-   LAMMPS would delete an atom beyond a plate when atoms migrate; this finds it before.
-------------------------------------------------------------------------- */
-
-void ImmersedMarkers::check_positions()
-{
-  if (domain->zperiodic) return;
-  double **const x = atom->x;
-  for (int i : members_)
-    if (!(x[i][2] >= domain->boxlo[2] && x[i][2] < domain->boxhi[2]))
-      return report(i, "went through a plate", Flaw::through_plate);
-}
-
-/* ---------------------------------------------------------------------- */
-
-void ImmersedMarkers::check_displacements(const Numbers &start, const Numbers &end)
-{
-  const double furthest = settings_.courant * flow_->smallest_spacing();
-  for (std::size_t n = 0; n < members_.size(); ++n) {
-    double square = 0;
-    for (int d = 0; d < 3; ++d) square += std::pow(end[3 * n + d] - start[3 * n + d], 2);
-    if (square <= furthest * furthest) continue;
-    return report_crossing(members_[n], std::sqrt(square) / furthest);
-  }
-}
-
-/* ---------------------------------------------------------------------- */
-
-double ImmersedMarkers::fastest() const
-{
-  double fastest2 = 0;
-  for (int i : members_) {
-    const double *const v = atom->v[i];
-    fastest2 = std::max(fastest2, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-  }
-  MPI_Allreduce(MPI_IN_PLACE, &fastest2, 1, MPI_DOUBLE, MPI_MAX, world);
-  return std::sqrt(fastest2);
-}
-
-double ImmersedMarkers::longest_step() const
-{
-  return 0.5 * settings_.courant * flow_->smallest_spacing() / fastest();
-}
-
-/* ---------------------------------------------------------------------- */
-
-void ImmersedMarkers::check_velocities(Stage stage)
-{
-  report_too_fast(stage);
-  stop_->check();
-}
-
-void ImmersedMarkers::report_too_fast(Stage stage)
-{
-  const bool any_speed =
-      estimating_spectrum_ || (any_speed_between_steps_ && stage != Stage::within);
-  const double fastest = settings_.courant * flow_->smallest_spacing() * parts_ / update->dt;
-  double **const v = atom->v;
-  for (int i : members_) {
-    const double speed2 = v[i][0] * v[i][0] + v[i][1] * v[i][1] + v[i][2] * v[i][2];
-    if (std::isfinite(speed2) && (any_speed || speed2 <= fastest * fastest)) continue;
-    if (std::isfinite(speed2)) return report_crossing(i, std::sqrt(speed2) / fastest);
-    return report(i, "has a velocity that is not a number", Flaw::not_finite);
-  }
-}
-
-/* ----------------------------------------------------------------------
-   a marker that crosses a multiple of what it may
-------------------------------------------------------------------------- */
-
-void ImmersedMarkers::report_crossing(int i, double multiple)
-{
-  report(i,
-         fmt::format("would cross {:.3g} fluid cells in a step (CFL above {}; timestep too "
-                     "large or unstable)",
-                     settings_.courant * multiple, settings_.courant),
-         Flaw::too_fast);
-}
-
-void ImmersedMarkers::report_outside(int i)
-{
-  report(i, "left the fluid its MPI task holds (reneighboring too rare, see neigh_modify)",
-         Flaw::left_fluid);
-}
-
-void ImmersedMarkers::report(int i, const std::string &what, Flaw flaw)
-{
-  double **const x = atom->x;
-  stop_->report(
-      fmt::format(
-          "{}: vertex with atom ID {} {} at step {}: molecule ID {} at ({:.6g}, {:.6g}, {:.6g})",
-          style_, atom->tag[i], what, update->ntimestep,
-          atom->molecule_flag ? atom->molecule[i] : 0, x[i][0], x[i][1], x[i][2]),
-      flaw);
+  between_steps_ = before;
 }
 
 /* ---------------------------------------------------------------------- */
 
 std::size_t ImmersedMarkers::bytes() const
 {
-  return implicit_.bytes() + applied_.capacity() * sizeof(double) +
+  return implicit_.bytes() + (applied_.capacity() + last_found_.capacity()) * sizeof(double) +
          members_.capacity() * sizeof(int);
 }

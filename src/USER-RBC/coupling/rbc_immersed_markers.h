@@ -63,6 +63,16 @@ class ImmersedMarkers : public rbc::Motion,
   /// Set at the start of a run.
   void allow_any_speed_between_steps(bool any) { any_speed_between_steps_ = any; }
 
+  /// Between steps, and at the start of a run, the atoms are as the last evaluation left them: only
+  /// then can its flow be finished. Who looks at the flow at other times, such as a fix whose forces
+  /// depend on it, gets it as it is; from then on in this run it is finished at the end of each step,
+  /// so that it does not depend on output. Collective.
+  void between_steps(bool yes);
+
+  /// Makes `v` the velocities of the last evaluation of this step, if there was one.
+  void guess_velocities(rbc::Numbers &v) const;
+  void forget_velocities() { last_found_.clear(); }
+
   /// Finds the local indices of the group's atoms on this rank; call after atoms migrated. Not
   /// collective.
   void find_members();
@@ -168,16 +178,18 @@ class ImmersedMarkers : public rbc::Motion,
   std::shared_ptr<CollectiveStop> stop_;
   rbc::Stopwatch exchanging_;
   std::shared_ptr<UnfinishedFlow> unfinished_;    ///< this, for the flow
-  bool viscosity_is_behind_ = false;              ///< that of the grid is of an earlier evaluation
+  bool between_steps_ = false, is_read_within_ = false;
+  bool viscosity_is_behind_ = false;    ///< that of the grid is of an earlier evaluation
   bool surfaces_are_of_estimate_ = false;
   bool estimating_spectrum_ = false, any_speed_between_steps_ = false;
-  int parts_ = 1;           ///< of the step
-  rbc::Numbers applied_;    ///< a row for each atom here
+  int parts_ = 1;              ///< of the step
+  rbc::Numbers applied_;       ///< a row for each atom here
+  rbc::Numbers last_found_;    ///< velocities, empty before the first evaluation of a step
 
   double *rows(double **array) const;
   void find_surfaces();
   void solve_flow();
-  void read_velocities(const double *forces, double factor, double *velocity);
+  void read_velocities(bool with_forces, const double *forces, double factor, double *velocity);
   void spread_layer();
   void evaluate(const rbc::Numbers &x, double fraction, Stage stage, rbc::Numbers &v);
   void report_too_fast(Stage stage);

@@ -6,6 +6,7 @@
 #include "coupling/rbc_immersed_markers.h"
 
 #include <cmath>
+#include <utility>
 
 using namespace LAMMPS_NS;
 using rbc::Numbers;
@@ -93,9 +94,11 @@ void ImplicitVelocity::solve(EvaluationStage stage)
     else
       markers_.velocities_of_flow(stage);
     if (rounds) continue;
-    error_ = scale > 0 ? left / scale : 0;
-    if (left <= allowed) return;
-    break;
+    const double found = markers_.fastest() * std::sqrt(count);
+    error_ = found > 0 ? left / found : 0;
+    if (left <= tolerance_ * found) return;
+    if (left > allowed) break;
+    if (std::exchange(flow_is_behind_, false)) markers_.velocities_of_flow(stage);
   }
   ++unconverged_;
 }

@@ -136,6 +136,7 @@ void TimeSteps::setup()
     return;
   }
   start_velocities();
+  markers_.between_steps(true);
   if (forces_change_ && doubts_velocities_ && !flow_->is_probing_flow_rate()) {
     show_velocities();
     return;
@@ -145,8 +146,12 @@ void TimeSteps::setup()
     markers_.recompute_forces();
     markers_.velocities_from_forces(Stage::start);
   }
-  if (!forces_change_) compare_velocities();
+  if (forces_change_)
+    flow_->finish_evaluation();
+  else
+    compare_velocities();
   velocity_step_ = step();
+  markers_.between_steps(true);
 }
 
 /* ----------------------------------------------------------------------
@@ -212,8 +217,10 @@ void TimeSteps::advance()
   for (CellCrossings *crossings : crossings_) crossings->start_step();
   tries_ = 0;
   seen_.clear();
-  do flow_->begin_step(tries_++ > 0);
-  while (!step_is_accepted());
+  do {
+    flow_->begin_step(tries_++ > 0);
+    markers_.between_steps(false);
+  } while (!step_is_accepted());
   flow_->place_walls(1);
   integrator_->accept(store_, start(), X_new_);
   last_dt_ = update->dt;
@@ -230,6 +237,7 @@ void TimeSteps::finish()
   }
   velocity_step_ = step();
   markers_.stop()->check();
+  markers_.between_steps(true);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -247,6 +255,7 @@ void TimeSteps::choose_timestep()
 
 void TimeSteps::take_step()
 {
+  markers_.forget_velocities();
   integrator_->step(markers_, store_, start(), X_new_);
 }
 
@@ -343,7 +352,8 @@ void TimeSteps::check_result()
         fmt::format("{}: displacements grew as in an unstable step at step {}", style_, step()),
         Flaw::unstable);
   if (tries_ == 1 && !integrator_->was_sudden() && !markers_.is_nearly_folded()) return;
-  markers_.load(atom->v, V_new_);    // of the last stage, a guess
+  V_new_ = V_;
+  markers_.guess_velocities(V_new_);
   markers_.velocity_at_end(X_new_, V_new_);
   velocities_known_ = true;
 }
@@ -352,7 +362,8 @@ void TimeSteps::measure_error()
 {
   markers_.store(X_new_, atom->x);
   report_crossings();
-  markers_.load(atom->v, V_new_);    // of the last stage, a guess
+  V_new_ = V_;
+  markers_.guess_velocities(V_new_);
   markers_.velocity(X_new_, 1.0, V_new_);
   velocities_known_ = true;
   local_error_ = rbc::StepControl::error(markers_, update->dt, X_, X_new_, V_, V_new_, scratch_);

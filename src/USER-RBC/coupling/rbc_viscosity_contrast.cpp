@@ -70,7 +70,7 @@ int ViscosityContrast::find_seen(const fluid::MarkerSet &markers)
   seen_.resize(strength_.size());
   const fluid::DoubleLayer unit{unit_.data(), strength_.data()};
   const int outside =
-      flow_->apply_mobility(markers, nullptr, seen_.data(), &unit, {mean, mean, mean});
+      flow_->apply_mobility(markers, nullptr, seen_.data(), &unit, {mean, mean, mean}, false);
   part_.resize(seen_.size());
   for (int n = 0; n < markers.count; ++n)
     for (int d = 0; d < 3; ++d) {
