@@ -176,8 +176,8 @@ class Steps(unittest.TestCase):
         cell = "fix mem all rbc/membrane rbc mooney-rivlin 0.257 0.0257 0.01 bending 2.0e-4 volume yes interior 7.5"
         dump = "dump atoms all custom 6 atoms.dump id x y z vx vy vz\ndump_modify atoms sort id format float %.17g"
 
-        def moved(every, ib):
-            result = run(scene(membrane=cell, ib=f"fix ib all rbc/ib flow {ib}", dump=dump, run="run 6", every=f"thermo {every}",
+        def moved(every, ib, before=""):
+            result = run(scene(membrane=cell, ib=f"fix ib all rbc/ib flow {ib}", dump=dump, run="run 6", every=f"thermo {every}", before=before,
                                thermo="thermo_style custom step f_flow[1] f_flow[9] f_flow"))
             return result.dump().frames[-1], [column[-1] for column in result.thermo.values()]
 
@@ -185,6 +185,39 @@ class Steps(unittest.TestCase):
             (often, shown), (seldom, late) = moved(1, ib), moved(6, ib)
             np.testing.assert_array_equal(often, seldom, err_msg=ib)
             self.assertEqual(shown, late, ib)
+        # forces that depend on the flow ask for it at other times
+        push = "variable fx equal f_flow[1]\nfix push all addforce v_fx 0 0"
+        (often, _), (seldom, _) = moved(1, "integrator midpoint", push), moved(6, "integrator midpoint", push)
+        np.testing.assert_array_equal(often, seldom)
+
+    def test_last_velocities_of_a_sudden_step_are_those_of_the_flow(self):
+        # the spectrum is estimated anew at the end of such a step, with velocities of no meaning
+        cell = "fix mem all rbc/membrane rbc mooney-rivlin 0.257 0.0257 0.01 bending 2.0e-4 volume yes interior 7.5"
+        dump = "dump {0} all custom 1 {0}.dump id vx vy vz\ndump_modify {0} sort id format float %.17g"
+        for more in ("", " viscosity 300"):
+            result = run(scene(
+                membrane=cell + more, ib="fix ib all rbc/ib flow tol 1e-4 integrator rkc auto",
+                before="group one id 5\nvariable fz equal 0.1*(step>=3)\nfix push one addforce 0 0 v_fz", timestep="timestep 50",
+                dump=dump.format("within"), run=f"run 3\n{dump.format('anew')}\nrun 0"))
+            within, anew = (result.dump(f"{name}.dump")("vx", "vy", "vz", frame=frame) for name, frame in (("within", 3), ("anew", 0)))
+            off = np.sqrt(((within - anew)**2).sum(axis=1).mean()) / np.linalg.norm(anew, axis=1).max()
+            self.assertLess(off, 3e-4, more)
+
+    def test_a_rank_without_atoms_takes_part(self):
+        for more in ("", " viscosity 300", " smooth yes interior 7.5 viscosity 300", " interior 7.5"):
+            run(scene(
+                processors="processors 2 1 1", box="region box block 0 24 0 12 0 12", neighbor="neighbor 0.5 bin", thermo=None,
+                membrane=f"fix mem all rbc/membrane rbc mooney-rivlin 0.257 0.0257 0.01 bending 2.0e-4{more}",
+                before="pair_style rbc/jkr 0.5\npair_coeff * * repulsive 0.5 0.4",
+                ib="fix ib all rbc/ib flow integrator midpoint gaps yes", timestep="timestep 10", run="run 2"), 2)
+
+    def test_a_flow_without_cells_has_no_inside(self):
+        membrane = "fix mem all rbc/membrane rbc mooney-rivlin 0.257 0.0257 0.01 bending 2.0e-4 interior 7.5"
+        result = run(scene(membrane=membrane, thermo="thermo_style custom step f_flow[10] f_flow[11]",
+                           run="run 2\nunfix ib\nunfix mem\ndelete_atoms group all bond yes\nrun 2"))
+        speed, divergence = (result.tables()[1][f"f_flow[{n}]"][-1] for n in (10, 11))
+        self.assertAlmostEqual(speed, 0.0012 * (1 - 0.5 / 12), delta=1e-12)
+        self.assertLess(divergence, 1e-12)
 
     def test_flow_is_known_after_balance(self):
         # with this tolerance the flow of the last evaluation is that of the velocities, and moves as it is
