@@ -22,9 +22,7 @@ using rbc::Numbers;
 
 static constexpr double SMALLEST_PART = 1.0e-6;
 
-// Velocities count as the same if they differ by less than this part of them.
-
-static constexpr double SAME = 1.0e-6;
+static constexpr double SAME = 1.0e-6;    // difference of velocities, relative to them
 
 /* ---------------------------------------------------------------------- */
 
