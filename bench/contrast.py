@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Cost of a step of dense blood whose cells have an inside of another viscosity, over that with one
-viscosity, which runs before each of them. Runs examples/blood/in.blood with 11 to 13 cells of 40 %
+viscosity, which runs before each of them. Runs examples/blood/in.blood with 10 or 11 cells of 40 %
 in a small box; writes contrast.csv to a folder and prints it.
 
 contrast.py --output FOLDER [--lmp ../build/lmp_rbc]
@@ -16,12 +16,13 @@ sys.path.insert(0, str(HERE.parent / "scripts"))
 import command_line  # noqa: E402
 import example_study  # noqa: E402
 
+SCRIPT = HERE.parent / "examples" / "blood" / "in.blood"
 PLASMA = 1.4965                      # mPa s, as in healthy.material
 GRIDS = ("rbc_162", 0.65), ("rbc_362", 0.65), ("rbc_362", 0.5)    # dx in um
 RATIOS = 5, 10, 20, 0.2              # of viscosities, inside over outside
 BOX = {"length": 14, "gap": 12, "strain": 4, "frames": 1000000}
-COLUMNS = ("vertices", "dx", "ratio", "steps", "stages", "solves_per_step", "iterations", "seconds_per_step",
-           "over_one_viscosity", "relative_viscosity")
+COLUMNS = ("vertices", "dx", "ratio", "steps", "stages", "solves_per_step", "iterations",
+           "seconds_per_step", "over_one_viscosity", "relative_viscosity")
 
 
 def blood(arguments, shape, dx, ratio):
@@ -30,13 +31,14 @@ def blood(arguments, shape, dx, ratio):
     with tempfile.TemporaryDirectory() as folder:
         before = example_study.processor_seconds()
         variables = {**BOX, "shape": shape, "dx": dx, "inside": ratio * PLASMA}
-        printed = example_study.run_script(arguments, HERE.parent / "examples" / "blood" / "in.blood", folder,
-                                           variables).stdout
+        printed = example_study.run_script(arguments, SCRIPT, folder, variables).stdout
         seconds = example_study.processor_seconds() - before
     solves, steps = map(int, re.search(r"step cost: (\d+) solves in (\d+) steps", printed).groups())
-    table = re.search(r"^ +Step .*?(?=^Loop|^\n)", printed, re.MULTILINE | re.DOTALL).group().strip().splitlines()
-    last = dict(zip(table[0].split(), map(float, table[-1].split())))
-    return steps, last["f_ib[5]"], solves / steps, seconds / steps, last["f_ib[11]"], last["v_relative"]
+    table = re.search(r"^ +Step .*?(?=^Loop|^\n)", printed, re.MULTILINE | re.DOTALL).group()
+    head, *_, end = table.strip().splitlines()
+    last = dict(zip(head.split(), map(float, end.split())))
+    return (steps, last["f_ib[5]"], solves / steps, seconds / steps, last["f_ib[11]"],
+            last["v_relative"])
 
 
 def main():
@@ -65,8 +67,8 @@ def rows(arguments):
 
 def row_of(shape, dx, ratio, of_run, alone):
     steps, stages, solves, seconds, iterations, viscosity = of_run
-    return (shape[4:], dx, ratio, steps, f"{stages:.0f}", f"{solves:.1f}", f"{iterations:.2f}", f"{seconds:.4f}",
-            f"{seconds / alone[3]:.2f}", f"{viscosity:.2f}")
+    return (shape[4:], dx, ratio, steps, f"{stages:.0f}", f"{solves:.1f}", f"{iterations:.2f}",
+            f"{seconds:.4f}", f"{seconds / alone[3]:.2f}", f"{viscosity:.2f}")
 
 
 if __name__ == "__main__":

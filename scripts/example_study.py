@@ -53,6 +53,17 @@ def run_script(arguments, script, folder, variables, templates=POTENTIALS, log="
     return subprocess.run(command, cwd=folder, check=False, capture_output=True, text=True)
 
 
+def run_once(arguments, script, folder, variables):
+    """Runs an input script in a folder, unless its log is there; false if it was not asked for."""
+    if (folder / "log.lammps").exists():
+        return True
+    if not wanted(arguments, folder.name):
+        return False
+    folder.mkdir(parents=True, exist_ok=True)
+    run_script(arguments, script, folder, variables, log="log.lammps").check_returncode()
+    return True
+
+
 def run_cases(arguments, path, columns, cases, run):
     """{label: rows of numbers} of all (series, label, variables) of `cases`, by run(arguments,
     variables).

@@ -21,6 +21,7 @@ import example_study  # noqa: E402
 from read_ave_time import read_ave_time, read_table  # noqa: E402
 from snapshots import surfaces  # noqa: E402
 
+SCRIPT = HERE / "in.capillary"
 SPEEDS = 0.33, 0.65, 1.3, 1.95, 2.6, 3.9    # mean velocity of the fluid, mm/s; the cell is half as fast again
 STARTS = {"centred": {"offset": 0.2}, "beside": {"offset": 2, "tilt": 60}}
 CASES = {f"{speed:g}-{start}": {"speed": speed, **variables} for speed in SPEEDS for start, variables in STARTS.items()}
@@ -80,22 +81,11 @@ def measure(folder, speed):
     return history, {**row, "shape": verdict(row)}
 
 
-def run(arguments, folder, variables):
-    """Runs the case unless its folder is there; false if it was not asked for."""
-    if (folder / "log.lammps").exists():
-        return True
-    if not example_study.wanted(arguments, folder.name):
-        return False
-    folder.mkdir(parents=True, exist_ok=True)
-    example_study.run_script(arguments, HERE / "in.capillary", folder, variables, log="log.lammps").check_returncode()
-    return True
-
-
 def empty_channel(arguments):
     """Force density that the empty channel takes over that of the closed form."""
     folder = arguments.folder / "empty"
     arguments.only = arguments.only and [*arguments.only, folder.name]
-    run(arguments, folder, {"cells": 0, "speed": 1})
+    example_study.run_once(arguments, SCRIPT, folder, {"cells": 0, "speed": 1})
     lines = [line.split() for line in (folder / "log.lammps").read_text(encoding="utf-8").splitlines()]
     start = next(n for n, words in enumerate(lines) if words[:1] == ["Step"])
     return float(lines[start + 1][lines[start].index("v_drive")]) / duct_drive(1e-3)
@@ -165,7 +155,7 @@ def main():
     arguments.folder = example_study.runs_folder(arguments)
     histories, rows = {}, {}
     for name, variables in CASES.items():
-        if run(arguments, arguments.folder / name, variables):
+        if example_study.run_once(arguments, SCRIPT, arguments.folder / name, variables):
             histories[name], rows[name] = measure(arguments.folder / name, variables["speed"])
             print(name, {key: value if isinstance(value, str) else float(f"{value:.4g}") for key, value in rows[name].items()}, flush=True)
     report(rows)

@@ -20,6 +20,7 @@ import example_study  # noqa: E402
 from read_ave_time import read_ave_time  # noqa: E402
 from snapshots import surfaces  # noqa: E402
 
+SCRIPT = HERE / "in.fahraeus"
 TUBES = {    # variables of in.fahraeus
     "d10h30": {"diameter": 10, "hematocrit": 0.3, "length": 15.5, "turns": 36},
     "d10h45": {"diameter": 10, "hematocrit": 0.45, "length": 15.5, "turns": 36, "seed": 1},    # six cells fit in
@@ -161,27 +162,11 @@ def write(rows, path):
             writer.writerow([name, *(f"{value:.4g}" for value in row.values())])
 
 
-def run(arguments, folder, variables):
-    """Runs the case unless its folder is there; false if it was not asked for."""
-    if (folder / "log.lammps").exists():
-        return True
-    if not example_study.wanted(arguments, folder.name):
-        return False
-    folder.mkdir(parents=True, exist_ok=True)
-    command = [arguments.lmp, "-in", HERE / "in.fahraeus", "-var", "templates", example_study.POTENTIALS]
-    for name, value in variables.items():
-        command += ["-var", name, str(value)]
-    if arguments.ranks > 1:
-        command = ["mpirun", "-np", str(arguments.ranks), *command]
-    subprocess.run(command, cwd=folder, check=True, stdout=subprocess.DEVNULL)
-    return True
-
-
 def plasma(arguments, variables):
     """Force density of plasma over that of Poiseuille's law, in the same tube of atoms."""
     folder = arguments.folder / f"plasma-d{variables['diameter']}-dx{variables['dx']}"
     arguments.only = arguments.only and [*arguments.only, folder.name]
-    run(arguments, folder, {**variables, "hematocrit": 0})
+    example_study.run_once(arguments, SCRIPT, folder, {**variables, "hematocrit": 0})
     lines = [line.split() for line in (folder / "log.lammps").read_text(encoding="utf-8").splitlines()]
     start = next(n for n, words in enumerate(lines) if words[:1] == ["Step"])
     return float(lines[start + 1][lines[start].index("v_relative")])
@@ -195,7 +180,7 @@ def main():
     cases, rows, pictures = {}, {}, {}
     for name, variables in CASES.items():
         folder = arguments.folder / name
-        if not run(arguments, folder, variables):
+        if not example_study.run_once(arguments, SCRIPT, folder, variables):
             continue
         cases[name], rows[name] = measure(folder, plasma(arguments, variables), **variables)
         print(name, {key: float(f"{value:.4g}") for key, value in rows[name].items()}, flush=True)

@@ -181,7 +181,7 @@ def draw(cases, pictures, path):
 
 
 def made_templates(folder):
-    """The folder of templates, with those that the package does not ship."""
+    """A folder of templates, with those that the package does not ship."""
     templates = folder / "templates"
     if not templates.exists():
         shutil.copytree(TOP / "potentials", templates,
@@ -201,8 +201,10 @@ def run_case(arguments, name, folder):
     variables = {"rate": name[1:], "sigma": KINDS[name[0]],
                  **{name: getattr(arguments, name) for name in OPTIONS},
                  "pieces": pieces}
-    done = example_study.run_script(arguments, HERE / "in.suspension", folder, variables,
-                                    made_templates(folder.parent),
+    templates = Path(example_study.POTENTIALS)
+    if not (templates / f"{arguments.shape}.mol").exists():
+        templates = made_templates(folder.parent)
+    done = example_study.run_script(arguments, HERE / "in.suspension", folder, variables, templates,
                                     log=f"log.lammps.{pieces + 1}" if pieces else "log.lammps")
     seconds = example_study.processor_seconds() - before
     if pieces:

@@ -51,7 +51,7 @@ void ImmersedMarkers::start_run(DrivenFlow *flow, const std::vector<CellMembrane
     if (cells->keeps_volume()) volume_keepers_.push_back(cells);
   contrast_ = contrast;
   implicit_.start_run(flow, membranes, contrast);
-  between_steps_ = is_read_within_ = false;
+  between_steps_ = is_read_within_ = viscosity_is_behind_ = false;
 }
 
 /* ---------------------------------------------------------------------- */

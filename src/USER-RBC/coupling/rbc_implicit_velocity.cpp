@@ -81,10 +81,8 @@ void ImplicitVelocity::solve(EvaluationStage stage)
 
     markers_.store(guess_, atom->v);
     for (CellMembranes *cells : viscous_) cells->linearise(frozen);
-    const double left = solve_linear(rounds      ? allowed / 2
-                                     : contrast_ ? MARGIN * allowed
-                                                 : allowed,
-                                     Dependence::all);
+    const double part = rounds ? 0.5 : contrast_ ? MARGIN : 1;
+    const double left = solve_linear(part * allowed, Dependence::all);
     iterations_ += gmres_.iterations();
     correct_forces();
     markers_.store(guess_, atom->v);

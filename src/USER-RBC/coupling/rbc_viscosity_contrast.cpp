@@ -67,15 +67,14 @@ int ViscosityContrast::find_seen(const fluid::MarkerSet &markers)
 {
   const double mean = total_excess() / flow_->box_volume();
   unit_.assign(strength_.size(), 1.0);
-  seen_.resize(strength_.size());
+  part_.resize(strength_.size());
   const fluid::DoubleLayer unit{unit_.data(), strength_.data()};
   const int outside =
-      flow_->apply_mobility(markers, nullptr, seen_.data(), &unit, {mean, mean, mean}, false);
-  part_.resize(seen_.size());
+      flow_->apply_mobility(markers, nullptr, part_.data(), &unit, {mean, mean, mean}, false);
   for (int n = 0; n < markers.count; ++n)
     for (int d = 0; d < 3; ++d) {
-      const std::size_t number = 3 * std::size_t(markers.index[n]) + d;
-      part_[number] = 1 / (1 + seen_[number]);
+      double &part = part_[3 * std::size_t(markers.index[n]) + d];
+      part = 1 / (1 + part);
     }
   return outside;
 }
@@ -193,7 +192,7 @@ void ViscosityContrast::read(const fluid::MarkerSet &markers, double *velocity) 
 std::size_t ViscosityContrast::bytes() const
 {
   std::size_t numbers = 0;
-  for (const auto *values : {&strength_, &place_, &seen_, &part_, &wrong_, &unit_})
+  for (const auto *values : {&strength_, &place_, &part_, &wrong_, &unit_})
     numbers += values->capacity();
   return numbers * sizeof(double);
 }

@@ -69,7 +69,8 @@ class ViscosityContrast : public StepPart, protected Pointers {
   /// of w with the last layer.
   void read(const fluid::MarkerSet &markers, double *velocity) const;
 
-  /// By how much further velocities count that forces cause without the grid: as in read().
+  /// 1 / (1 + e), rows as the velocities'. Velocities that forces add beside the grid, the slips,
+  /// are to be multiplied with it, too. Valid until the next find_seen().
   const double *parts() const { return part_.data(); }
 
   void report_to(const std::shared_ptr<CollectiveStop> & /*stop*/) override {}
@@ -90,8 +91,7 @@ class ViscosityContrast : public StepPart, protected Pointers {
   // of this rank's atoms, zero for those without
   std::vector<double> strength_;    ///< excess times area times outward normal
   std::vector<double> place_;       ///< position within the cell
-  std::vector<double> seen_;        ///< of the layer with unit velocity, e
-  std::vector<double> part_;        ///< 1 / (1 + e)
+  std::vector<double> part_;        ///< 1 / (1 + e), e what is seen of the layer of unit velocity
   std::vector<double> wrong_;       ///< what vertices see of w of the last layer, but should not
   std::vector<double> unit_;        ///< velocities
   bool knows_surfaces_ = false;
