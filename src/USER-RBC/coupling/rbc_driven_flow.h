@@ -142,14 +142,16 @@ class DrivenFlow : public StepPart, protected Pointers {
   /// With inertia: the end of the fluid's step. Without: nothing.
   void finish_step();
 
-  /// Whose last evaluation may be unfinished; nothing happens once it is gone.
+  /// Tells who has evaluated this flow and may have left the evaluation unfinished. Nothing happens
+  /// once that object is gone.
   void leave_unfinished(std::weak_ptr<UnfinishedFlow> evaluation)
   {
     unfinished_ = std::move(evaluation);
   }
 
-  /// Finishes the last evaluation: its velocity, or all of it. Call before the flow is read through
-  /// flow(); what is asked for below does so itself. Collective.
+  /// Finishes the velocity of the last evaluation, or all of it. Call one of them before the flow is
+  /// read through flow(); diagnostics() and the other functions for output do so themselves.
+  /// Collective.
   void finish_velocity();
   void finish_evaluation();
 

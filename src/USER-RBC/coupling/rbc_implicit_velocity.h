@@ -49,8 +49,9 @@ class ImplicitVelocity : protected Pointers {
   /// the flow in each round.
   void solve(EvaluationStage stage);
 
-  /// Makes the change of velocities that given forces cause, where no velocity depends on others,
-  /// what it is with double layers; without the viscosity of membranes. For estimates. Collective.
+  /// On entry `change` is by how much a change of forces alters the velocities if membranes at rest
+  /// are assumed. Solves for the change with the double layers of the moving membranes, but without
+  /// their viscosity. See rbc::Motion::complete_change(). Collective.
   void complete_change(rbc::Numbers &change);
 
   /// Whether the flow is that of velocities other than those found last.

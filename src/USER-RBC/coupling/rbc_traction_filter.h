@@ -37,7 +37,8 @@ class TractionFilter : public StepPart, protected Pointers {
   /// Valid until the next call. Collective.
   const double *smooth_forces(const double *force, double factor);
 
-  /// Instead of smooth_forces() where there are none. Not collective.
+  /// To be called in place of smooth_forces() where there are no forces: smooth_velocities() then
+  /// adds no slip. Not collective.
   void leave_out_forces();
 
   /// Makes of the velocities that the grid gives vertices with these forces those with which they

@@ -10,8 +10,8 @@ class UnfinishedFlow {
   /// Makes the flow that of the markers' velocities. Collective.
   virtual void finish_velocity() = 0;
 
-  /// Finds the viscosity on the grid, by which the fluid's velocity follows from what was solved
-  /// for. Collective.
+  /// Finds the viscosity on the grid: the velocity that was solved for, divided by it, is that of
+  /// the fluid. Collective.
   virtual void finish_viscosity() = 0;
 
  protected:

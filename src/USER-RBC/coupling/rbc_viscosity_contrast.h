@@ -62,7 +62,8 @@ class ViscosityContrast : public StepPart, protected Pointers {
   };
   Moving layer(const fluid::MarkerSet &markers);
 
-  /// Instead: there is no layer, the membranes are taken to be at rest.
+  /// To be called in place of layer() where the membranes are taken to be at rest: read() then
+  /// expects no layer.
   void leave_out_layer() { wrong_.assign(strength_.size(), 0.0); }
 
   /// Makes velocities of the markers, three numbers for each of this rank's atoms, of what they see

@@ -35,8 +35,9 @@ class Motion {
   /// walls), and must not refuse high speeds.
   virtual void estimate_spectrum(bool /*on*/) {}
 
-  /// There velocity() may take velocities on which others depend to be zero. Makes `change`, by
-  /// which positions alone change these velocities, what it is with the dependence.
+  /// While the spectrum is estimated, velocity() may leave out that velocities of points depend on
+  /// those of others. Then `change`, a difference of two such results, lacks this dependence: this
+  /// function adds it.
   virtual void complete_change(Numbers & /*change*/) {}
 
   /// The step is taken as that many equal parts, one after the other: what a point may cross in a
