@@ -69,6 +69,23 @@ def after_half_turns(time, shape):
     return time[-1] if whole == 0 else np.interp(whole, turned, time)
 
 
+def mean_motion(strain, positions, start):
+    """Means from a strain of `start` on: the strains they are over, and over the shear rate at what
+    the shape turns, at what the membrane and how often each vertex goes around the centre; the
+    least and the largest angle of the shape up to the end, degrees."""
+    shape, membrane = angles(positions)
+    late = strain >= min(start, strain[-1] / 2)
+    strain, shape, membrane, positions = strain[late], shape[late], membrane[late], positions[late]
+    end = after_half_turns(strain, shape)
+
+    def rate(angle):
+        return (np.interp(end, strain, angle) - angle[0]) / (end - strain[0])
+
+    return {"from": strain[0], "to": end, "shape": rate(shape), "membrane": rate(membrane),
+            "revolutions": np.array([rate(vertex) for vertex in revolutions(positions).T]),
+            "least": np.degrees(shape.min()), "largest": np.degrees(shape.max())}
+
+
 def main():
     parser = command_line.parser(__doc__)
     parser.add_argument("dump")
@@ -85,22 +102,15 @@ def main():
         wrapped = (np.degrees(shape) + 90) % 180 - 90
         np.savetxt(arguments.output, np.column_stack([strain, wrapped, np.degrees(membrane)]),
                    header="strain theta_shape phi_membrane", fmt="%.6g")
-    late = strain >= min(arguments.start, strain[-1] / 2)
-    strain, shape, membrane, positions = strain[late], shape[late], membrane[late], positions[late]
-    end = after_half_turns(strain, shape)
-
-    def rate(angle):
-        return (np.interp(end, strain, angle) - angle[0]) / (end - strain[0])
-
-    turns = revolutions(positions)
-    frequencies = np.array([rate(vertex) for vertex in turns.T])
-    print(f"strain {strain[0]:.3g} to {end:.3g}: shape turns at {rate(shape):+.4f}, "
-          f"membrane at {rate(membrane):+.4f} of the shear rate; "
-          f"tank-treading {rate(membrane) - rate(shape):+.4f}; "
-          f"angle of the shape to strain {strain[-1]:.3g}: {np.degrees(shape).min():.1f} to "
-          f"{np.degrees(shape).max():.1f} degrees")
-    print(f"vertices go around {frequencies.mean():+.4f} times per strain, standard deviation {frequencies.std():.4f} "
-          f"over {frequencies.size} vertices")
+    mean = mean_motion(strain, positions, arguments.start)
+    print(f"strain {mean['from']:.3g} to {mean['to']:.3g}: shape turns at {mean['shape']:+.4f}, "
+          f"membrane at {mean['membrane']:+.4f} of the shear rate; "
+          f"tank-treading {mean['membrane'] - mean['shape']:+.4f}; "
+          f"angle of the shape to strain {strain[-1]:.3g}: {mean['least']:.1f} to "
+          f"{mean['largest']:.1f} degrees")
+    turns = mean["revolutions"]
+    print(f"vertices go around {turns.mean():+.4f} times per strain, "
+          f"standard deviation {turns.std():.4f} over {turns.size} vertices")
 
 
 if __name__ == "__main__":

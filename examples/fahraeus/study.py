@@ -31,8 +31,10 @@ TUBES = {    # variables of in.fahraeus
 }
 MESHES = {"coarsest": {"shape": "rbc_162", "dx": 0.8, "range": 0.8}, "coarse": {"shape": "rbc_162", "dx": 0.65},
           "fine": {"shape": "rbc_362", "dx": 0.5}}
-CASES = {f"{tube}-{mesh}": {**TUBES[tube], **MESHES[mesh]} for tube in TUBES for mesh in MESHES
-         if mesh == "coarse" or mesh == ("coarsest" if tube == "d40h30" else "fine")}
+INSIDE = 7.4825          # five times the viscosity of plasma, mPa s
+CASES = {**{f"{tube}-{mesh}": {**TUBES[tube], **MESHES[mesh]} for tube in TUBES for mesh in MESHES
+            if mesh == "coarse" or mesh == ("coarsest" if tube == "d40h30" else "fine")},
+         "d20h45-inside": {**TUBES["d20h45"], **MESHES["coarse"], "inside": INSIDE}}
 RATE = 50e-6             # mean velocity over diameter, 1/us
 COLORS = {"d10h30": "#8cbf6f", "d10h45": "#33691e", "d20h30": "#e06666", "d20h45": "#8b1a1a", "d40h30": "#6fa8dc",
           "d40h45": "#1c4587"}
@@ -130,6 +132,8 @@ def draw(cases, rows, pictures, path):
     panels = [figure.add_subplot(grid[0, 2 * n:2 * n + 2]) for n in range(3)]
     for name, case in cases.items():
         row, (tube, mesh) = rows[name], name.split("-")
+        if mesh not in MESHES:
+            continue
         label = f"{row['diameter']:g} µm, {100 * TUBES[tube]['hematocrit']:.0f} %"
         for panel, series, reference in zip(panels, ("viscosity", "ratio", "layer"), ("pries_viscosity", "pries_ratio", None)):
             x, y = case[series] if series == "layer" else (case["turned"], case[series])

@@ -2,13 +2,13 @@
 """Turning of a cell near the wall of a tube and of one near its axis, as Figure 5 of the paper, and
 a picture as Figure 4.
 
-Runs in.tube-poiseuille in a folder, unless it is there, and writes tube-poiseuille.csv (a row per
-cell) and tube-poiseuille.png.
+Runs in.tube-poiseuille in a folder for each case, unless it is there, and writes a table with a row
+per cell and a picture: tube-poiseuille.csv and .png of cells whose inside is as viscous as plasma,
+inside.csv and .png of such as have one five times as viscous. Prints the README's table of both.
 
-study.py --output FOLDER [--folder run] [--lmp ../../build/lmp_rbc]
+study.py --output FOLDER [--folder runs] [--lmp ../../build/lmp_rbc] [--only tube-poiseuille]
 """
 import csv
-import subprocess
 import sys
 from pathlib import Path
 
@@ -24,6 +24,9 @@ from surface_gaps import read_cells  # noqa: E402
 RADIUS, DX, SPEED = 11.25, 0.6, 187.5e-6      # of in.tube-poiseuille
 DISC = 7.82                                   # diameter D of a cell at rest, um
 WALL, AXIS = "#2a6fb0", "#3d9141"             # the paper's colors of the two cells
+CASES = {"tube-poiseuille": {}, "inside": {"inside": 7.4825}}    # variables of in.tube-poiseuille
+WORDS = {"tube-poiseuille": "inside as viscous as plasma", "inside": "inside five times as viscous"}
+OUTER = 7.5                                   # distance of outer cells from the axis, um
 START = 2.0                                   # time * mean velocity / D from which means are taken
 
 
@@ -182,28 +185,59 @@ def write(rows, path):
         writer.writerows([f"{value:.4g}" for value in row.values()] for row in rows)
 
 
+def summary(cells, rows):
+    """What the README's table compares, of a run: text by name."""
+    late = cells.periods >= min(START, cells.periods[-1] / 2)
+    rates = {row["radius"]: row["velocity"] for row in rows}
+    outer = [row for row in rows if row["radius"] > OUTER]
+    inner = [row for row in rows if row["radius"] <= OUTER]
+    axis = [rates[r] for r in sorted(rates)[:2]]
+    turned = abs(cells.turned - cells.turned[0]).max(axis=0)
+    outermost = sorted(range(len(rows)), key=lambda n: -rows[n]["radius"])[:4]
+
+    def span(values, form):
+        return f"{min(values):{form}} to {max(values):{form}}"
+
+    return {f"velocity beyond {OUTER} µm, µm/s": span([row["velocity"] for row in outer], ".0f"),
+            "next to the axis": span(axis, ".0f"),
+            f"length beyond {OUTER} µm, µm": span([row["length"] for row in outer], ".1f"),
+            "within": span([row["length"] for row in inner], ".1f"),
+            "cells that turn by a quarter or more": f"{(turned >= 90).sum()} of {len(rows)}",
+            "the four outermost turn by": span(turned[outermost], ".0f") + "°",
+            "the membrane goes around them by":
+                span([rows[n]["membrane_angle"] for n in outermost], ".0f") + "°",
+            "viscosity over that of plasma": f"{cells.relative[late].mean():.3f}",
+            "in the last 0.1 s": f"{cells.relative[cells.time >= cells.time[-1] - 100].mean():.3f}",
+            "nearest vertex to the wall, µm": f"{cells.gap.min():.2f}",
+            "volumes within": f"{abs(cells.volume / cells.volume[0] - 1).max():.1e}"}
+
+
+def print_table(summaries):
+    print("| |", *(f"{WORDS[name]} |" for name in summaries))
+    print("|---|" + "---|" * len(summaries))
+    for line in next(iter(summaries.values()), ()):
+        print(f"| {line} |", *(f"{texts[line]} |" for texts in summaries.values()))
+
+
 def main():
-    parser = example_study.options(__doc__)
+    parser = example_study.options(__doc__, CASES)
     example_study.add_runs_folder(parser)
     arguments = command_line.parse(parser, HERE)
-    folder = example_study.runs_folder(arguments)
-    if not (folder / "log.lammps").exists():
-        folder.mkdir(parents=True, exist_ok=True)
-        command = [arguments.lmp, "-in", HERE / "in.tube-poiseuille", "-var", "templates", example_study.POTENTIALS]
-        if arguments.ranks > 1:
-            command = ["mpirun", "-np", str(arguments.ranks), *command]
-        subprocess.run(command, cwd=folder, check=True, stdout=subprocess.DEVNULL)
-    cells = Cells(folder)
-    rows, wall, axis = measure(cells, membrane_angles(cells, folder))
-    for row in rows:
-        print({key: float(f"{value:.4g}") for key, value in row.items()})
-    late = cells.periods >= min(START, cells.periods[-1] / 2)
-    print(f"until {cells.time[-1]:.0f} ms; viscosity over that of plasma {cells.relative[late].mean():.3f}; nearest vertex to the "
-          f"wall {cells.gap.min():.3f} um; volumes within {abs(cells.volume / cells.volume[0] - 1).max():.1e}")
-    write(rows, arguments.output / "tube-poiseuille.csv")
-    picture = folder / "last.png"
-    snapshot(surfaces(folder)[-1][1], wall, axis, picture)
-    draw(cells, rows, wall, axis, picture, arguments.output / "tube-poiseuille.png")
+    summaries = {}
+    for name, variables in CASES.items():
+        folder = example_study.runs_folder(arguments) / name
+        if not example_study.run_once(arguments, HERE / "in.tube-poiseuille", folder, variables):
+            continue
+        cells = Cells(folder)
+        rows, wall, axis = measure(cells, membrane_angles(cells, folder))
+        for row in rows:
+            print({key: float(f"{value:.4g}") for key, value in row.items()})
+        write(rows, arguments.output / f"{name}.csv")
+        picture = folder / "last.png"
+        snapshot(surfaces(folder)[-1][1], wall, axis, picture)
+        draw(cells, rows, wall, axis, picture, arguments.output / f"{name}.png")
+        summaries[name] = summary(cells, rows)
+    print_table(summaries)
 
 
 if __name__ == "__main__":

@@ -25,7 +25,8 @@ REQUIRED = {"cell_statistics.py": "cells --box 0 1 0 1 0 1", "make_vessel.py": "
             "surface_gaps.py": "cells.vtp --box 1 1 1 -o x.csv",
             "compare_builds.py": "before now", "kernels.py": "1.json",
             "membrane.py": "membrane.json", "make_template.py": "sphere -f 2",
-            "settling-sphere": "run", "shear-cell": "run", "throat": "straight throat"}
+            "settling-sphere/draw.py": "run", "shear-cell/draw.py": "run",
+            "throat/draw.py": "straight throat"}
 
 
 def attempt(script, *words, python=(), **environment):
@@ -36,7 +37,8 @@ def attempt(script, *words, python=(), **environment):
 
 
 def required(script):
-    return REQUIRED.get(script.name, REQUIRED.get(script.parent.name, "")).split()
+    here = f"{script.parent.name}/{script.name}"
+    return REQUIRED.get(script.name, REQUIRED.get(here, "")).split()
 
 
 def attempt_here(script, *words):

@@ -41,6 +41,16 @@ class Fahraeus(unittest.TestCase):
         # what disturbs the flow dissipates: never less than plasma alone
         self.assertGreater(case["viscosity"][1:].min(), 1)
 
+    def test_a_more_viscous_inside_takes_more_pressure(self):
+        """At step 0 the membrane has no forces. Of two flows at the same rate that with the larger
+        viscosity somewhere dissipates more, and less than with that viscosity everywhere."""
+        relative = [run_example("fahraeus", diameter=9, length=9.6, hematocrit=0.16, turns=0.01,
+                                every=1, inside=inside).thermo["v_relative"][0]
+                    for inside in (0, 1.4965, 7.4825)]
+        print(f"\nviscosity at step 0 {relative}")
+        self.assertLess(abs(relative[1] / relative[0] - 1), 1e-6)
+        self.assertTrue(1.001 * relative[0] < relative[2] < 5 * relative[0])
+
 
 class Measures(unittest.TestCase):
     def test_fits_are_those_of_the_tables(self):

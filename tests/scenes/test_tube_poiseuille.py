@@ -30,6 +30,16 @@ class TubePoiseuille(unittest.TestCase):
         print(f"turning over shear rate {turning / rate}")
         self.assertTrue((turning[r > 3] < 0.02 * rate[r > 3]).all() and (turning > -rate)[r > 3].all())
 
+    def test_a_more_viscous_inside_takes_more_pressure(self):
+        """At step 0 the membrane has no forces. Of two flows at the same rate that with the larger
+        viscosity somewhere dissipates more, and less than with that viscosity everywhere."""
+        relative = [run_example("tube-poiseuille", length=9.6, hematocrit=0.05, duration=1, every=1,
+                                inside=inside).thermo["v_relative"][0]
+                    for inside in (0, 1.4965, 7.4825)]
+        print(f"\nviscosity at step 0 {relative}")
+        self.assertLess(abs(relative[1] / relative[0] - 1), 1e-6)
+        self.assertTrue(1.001 * relative[0] < relative[2] < 5 * relative[0])
+
 
 class Angles(unittest.TestCase):
     def test_a_turning_axis_without_sense(self):
