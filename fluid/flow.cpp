@@ -7,10 +7,12 @@ namespace fluid {
 namespace {
 
 /// y += factor x over a box.
-void add(const VectorField &y, double factor, const VectorField &x, const Box &box)
+template <int N>
+void add(const Components<double, N> &y, double factor, const Components<double, N> &x,
+         const Box &box)
 {
   const int first = box.lo[0], n = box.extent(0);
-  for (int c = 0; c < 3; ++c)
+  for (int c = 0; c < N; ++c)
     for_each_row(box, [&, from = x[c], to = y[c]](int j, int k) {
       const double *const x_row = &from(first, j, k);
       double *const y_row = &to(first, j, k);
@@ -277,6 +279,7 @@ void Flow::add_mobility_flow(double factor)
   add(total_.force, factor, mobility_.force, stored);
   if (equations_.inertia == Inertia::convective) add(rhs_, factor, mobility_.force, brick());
   add(total_.velocity, factor, mobility_.velocity, stored);
+  if (mobility_.layered) add(total_.source, factor, mobility_.source, stored);
   for (int c = 0; c < 3; ++c) {
     total_.into_lower[c] += factor * mobility_.into_lower[c];
     total_.into_upper[c] += factor * mobility_.into_upper[c];

@@ -101,6 +101,7 @@ class FixRBCIB : public Fix,
   void check_inertia() const;
   bool check_order() const;
   void check_moves_all(const CellMembranes &) const;
+  double spacing_for_insides() const;
   void check_apart(const WallGroup &) const;
   void warn() const;
 };

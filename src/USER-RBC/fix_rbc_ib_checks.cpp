@@ -113,6 +113,21 @@ void FixRBCIB::check_apart(const WallGroup &wall) const
                id, wall.style().substr(1));
 }
 
+/* ----------------------------------------------------------------------
+   of the fluid, with which cells of another viscosity inside are two fluid cells thick; 0 if they are
+------------------------------------------------------------------------- */
+
+double FixRBCIB::spacing_for_insides() const
+{
+  double finer = 0;
+  for (CellMembranes *membranes : all_cell_membranes(lmp)) {
+    if (!flow || !contrast.acts_on(*membranes)) continue;
+    const double half = membranes->thickness() / 2;
+    if (half < flow->mean_spacing()) finer = finer > 0 ? std::min(finer, half) : half;
+  }
+  return finer;
+}
+
 /* ---------------------------------------------------------------------- */
 
 std::string FixRBCIB::remedies_for(const std::vector<Flaw> &seen)
@@ -129,6 +144,7 @@ std::string FixRBCIB::remedies_for(const std::vector<Flaw> &seen)
     now.creases = now.creases && membranes->parameters().crease.stiffness > 0;
     now.limits_stretch = now.limits_stretch && membranes->parameters().stretch.stiffness > 0;
   }
+  now.finer_spacing = spacing_for_insides();
   now.several_cells = cells > 1;
   now.lacks_contact = now.several_cells && pair_step_parts(force).empty();
   now.timestep = update->dt;

@@ -276,6 +276,19 @@ int DrivenFlow::apply_mobility(const fluid::MarkerSet &markers, const double *fo
   return outside;
 }
 
+int DrivenFlow::add_layer(const fluid::MarkerSet &markers, const fluid::DoubleLayer &layer,
+                          const std::array<double, 3> &excess, double *velocity)
+{
+  const int outside = apply_mobility(markers, nullptr, velocity, &layer, excess, false);
+  flow_->add_mobility_flow(1);
+  for (int d = 0; d < 3; ++d) {
+    excess_[d] += excess[d];
+    solved_forcing_.mean[d] += excess[d];
+  }
+  changed();
+  return outside;
+}
+
 /* ---------------------------------------------------------------------- */
 
 void DrivenFlow::finish_step()

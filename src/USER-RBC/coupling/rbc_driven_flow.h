@@ -139,6 +139,11 @@ class DrivenFlow : public StepPart, protected Pointers {
                      const fluid::DoubleLayer *layer = nullptr,
                      const std::array<double, 3> &excess = {0, 0, 0}, bool with_forces = true);
 
+  /// Adds a double layer and its flow to the flow solved for, for output. `velocity` is overwritten.
+  /// Costs a solve. Returns what spread does. Collective.
+  int add_layer(const fluid::MarkerSet &markers, const fluid::DoubleLayer &layer,
+                const std::array<double, 3> &excess, double *velocity);
+
   /// With inertia: the end of the fluid's step. Without: nothing.
   void finish_step();
 

@@ -71,13 +71,8 @@ void GapSlip::atoms_migrated()
 
 /* ---------------------------------------------------------------------- */
 
-static double part(const double *parts, std::size_t number)
-{
-  return parts ? parts[number] : 1;
-}
-
 void GapSlip::add(const std::vector<int> &members, const double *force, double factor,
-                  double *velocity, const double *parts)
+                  double *velocity)
 {
   stopwatch_.start();
   if (contact_) {
@@ -87,12 +82,9 @@ void GapSlip::add(const std::vector<int> &members, const double *force, double f
     exchange_.add_from_ghosts(slip_);
     for (int i : members)
       if (area_[i] > 0)
-        for (int d = 0; d < 3; ++d) {
-          const std::size_t number = 3 * std::size_t(i) + d;
-          velocity[number] += part(parts, number) * slip_[i][d] / area_[i];
-        }
+        for (int d = 0; d < 3; ++d) velocity[3 * std::size_t(i) + d] += slip_[i][d] / area_[i];
   }
-  slide_along_plates(members, force, factor, velocity, parts);
+  slide_along_plates(members, force, factor, velocity);
   stopwatch_.stop();
 }
 
@@ -136,7 +128,7 @@ void GapSlip::slide(const rbc::VertexContact &contact, double missing)
 /* ---------------------------------------------------------------------- */
 
 void GapSlip::slide_along_plates(const std::vector<int> &members, const double *force,
-                                 double factor, double *velocity, const double *parts) const
+                                 double factor, double *velocity) const
 {
   for (const Plate &plate : plates_) {
     if (!plate.holds) continue;
@@ -148,7 +140,7 @@ void GapSlip::slide_along_plates(const std::vector<int> &members, const double *
       const double mobility = factor * missing / (viscosity_ * area_[i]);
       for (int d = 0; d < 2; ++d) {
         const std::size_t number = 3 * std::size_t(i) + d;
-        velocity[number] += part(parts, number) * mobility * force[number];
+        velocity[number] += mobility * force[number];
       }
     }
   }

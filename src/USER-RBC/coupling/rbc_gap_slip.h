@@ -46,9 +46,8 @@ class GapSlip : public StepPart, protected Pointers {
 
   /// Adds to `velocity` what the forces times `factor` cause, three numbers for each of this rank's
   /// atoms; `members` are those that count. Positions are those of the last evaluation of forces.
-  /// Where `parts` is not null, each number is multiplied with the one there first. Collective.
-  void add(const std::vector<int> &members, const double *force, double factor, double *velocity,
-           const double *parts);
+  /// Collective.
+  void add(const std::vector<int> &members, const double *force, double factor, double *velocity);
 
   void report_to(const std::shared_ptr<CollectiveStop> & /*stop*/) override {}
   /// Plates alone cost next to nothing.
@@ -82,7 +81,7 @@ class GapSlip : public StepPart, protected Pointers {
   void slide_near_surfaces();
   void slide(const rbc::VertexContact &contact, double missing);
   void slide_along_plates(const std::vector<int> &members, const double *force, double factor,
-                          double *velocity, const double *parts) const;
+                          double *velocity) const;
 };
 
 }    // namespace LAMMPS_NS

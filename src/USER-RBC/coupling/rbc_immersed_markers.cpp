@@ -51,7 +51,7 @@ void ImmersedMarkers::start_run(DrivenFlow *flow, const std::vector<CellMembrane
     if (cells->keeps_volume()) volume_keepers_.push_back(cells);
   contrast_ = contrast;
   implicit_.start_run(flow, membranes, contrast);
-  between_steps_ = is_read_within_ = viscosity_is_behind_ = false;
+  between_steps_ = is_read_within_ = viscosity_is_behind_ = layers_are_missing_ = false;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -177,6 +177,7 @@ void ImmersedMarkers::velocities_from_forces(Stage stage)
   else
     velocities_of_flow(stage);
   viscosity_is_behind_ = contrast_;
+  layers_are_missing_ = contrast_ && !estimating_spectrum_;
   if (contrast_) flow_->leave_unfinished(unfinished_);
   check_velocities(stage);
   flow_->finish_step();
@@ -202,10 +203,10 @@ void ImmersedMarkers::velocities_of_flow(Stage stage)
 void ImmersedMarkers::read_velocities(bool with_forces, const double *forces, double factor,
                                       double *velocity)
 {
-  const double *const parts = contrast_ ? contrast_->parts() : nullptr;
+  if (contrast_) contrast_->take_off_wrong(set(), velocity);
+  if (filter_) filter_->smooth_velocities(velocity);
+  if (gaps_ && with_forces) gaps_->add(members_, forces, factor, velocity);
   if (contrast_) contrast_->read(set(), velocity);
-  if (filter_) filter_->smooth_velocities(velocity, parts);
-  if (gaps_ && with_forces) gaps_->add(members_, forces, factor, velocity, parts);
 }
 
 void ImmersedMarkers::solve_flow()
@@ -241,10 +242,17 @@ void ImmersedMarkers::finish_velocity()
     is_read_within_ = true;
     return;
   }
-  if (!implicit_.flow_is_behind()) return;
-  implicit_.flow_is_complete();
+  const bool behind = implicit_.flow_is_behind();
+  if (!behind && !layers_are_missing_) return;
   if (!contrast_->knows_surfaces()) contrast_->find_surfaces();
-  solve_flow();
+  if (behind) {
+    implicit_.flow_is_complete();
+    solve_flow();
+    layers_are_missing_ = true;
+  }
+  if (!std::exchange(layers_are_missing_, false)) return;
+  const int outside = contrast_->add_rigid_layers(set());
+  if (outside >= 0) report_outside(outside);
 }
 
 void ImmersedMarkers::finish_viscosity()

@@ -180,6 +180,7 @@ class ImmersedMarkers : public rbc::Motion,
   std::shared_ptr<UnfinishedFlow> unfinished_;    ///< this, for the flow
   bool between_steps_ = false, is_read_within_ = false;
   bool viscosity_is_behind_ = false;    ///< that of the grid is of an earlier evaluation
+  bool layers_are_missing_ = false;     ///< from the flow: those of cells that move as a whole
   bool surfaces_are_of_estimate_ = false;
   bool estimating_spectrum_ = false, any_speed_between_steps_ = false;
   int parts_ = 1;              ///< of the step

@@ -198,12 +198,11 @@ void TractionFilter::leave_out_forces()
    P u + slip (1 - P) t' = P (u - slip t') + slip t', with t' = (1 - P) t; slip times t' is in rough_
 ------------------------------------------------------------------------- */
 
-void TractionFilter::smooth_velocities(double *velocity, const double *parts)
+void TractionFilter::smooth_velocities(double *velocity)
 {
   stopwatch_.start();
   for (int i = 0; i < atom->nlocal; ++i)
-    for (int d = 0; d < 3; ++d)
-      rough_[i][d] *= parts ? slip_ * parts[3 * std::size_t(i) + d] : slip_;
+    for (int d = 0; d < 3; ++d) rough_[i][d] *= slip_;
   filter([&](const Kind & /*kind*/, int /*v*/,
              int i) -> Row { return row_of(velocity + 3 * std::size_t(i)) - row_of(rough_[i]); },
          [&](const Kind & /*kind*/, int /*v*/, int i, const Row &smooth) {

@@ -42,9 +42,8 @@ class TractionFilter : public StepPart, protected Pointers {
   void leave_out_forces();
 
   /// Makes of the velocities that the grid gives vertices with these forces those with which they
-  /// move. Other atoms keep theirs. Where `parts` is not null, each number of the slip of rough
-  /// tractions is multiplied with the one there. Collective.
-  void smooth_velocities(double *velocity, const double *parts);
+  /// move. Other atoms keep theirs. Collective.
+  void smooth_velocities(double *velocity);
 
   void report_to(const std::shared_ptr<CollectiveStop> & /*stop*/) override {}
   std::vector<Section> sections() override { return {{"Smoothing", &stopwatch_}}; }

@@ -1,6 +1,7 @@
 #ifndef LMP_RBC_VISCOSITY_CONTRAST_H
 #define LMP_RBC_VISCOSITY_CONTRAST_H
 
+#include "cells/rbc_rigid_motions.h"
 #include "fluid/flow.h"
 #include "fluid/gap_mobility.h"
 #include "pointers.h"
@@ -9,6 +10,10 @@
 #include <array>
 #include <memory>
 #include <vector>
+
+namespace rbc {
+struct VertexContact;
+}
 
 namespace LAMMPS_NS {
 
@@ -23,7 +28,13 @@ class DrivenFlow;
 /// share where surfaces are near each other or curved. The slope of w differs between the two sides
 /// of a surface by surface_shear() times eta(x) / eta - 1; what kernels blur of that is taken off.
 /// So is, in the part that is relative motion, what a vertex sees of the inside of other cells near
-/// it. See theory.rst.
+/// it.
+///
+/// All this counts for the motion of vertices relative to their cell alone. How a cell moves as a
+/// whole does not depend on its viscosity, but what the grid makes of the layer of such a motion is
+/// wrong by a small part of eta(x) / eta, which may be a large number. So the layer of the relative
+/// motion is spread, w is u outside and inside less the rigid motion times eta(x) / eta - 1, and the
+/// rest is added for output only. See theory.rst.
 class ViscosityContrast : public StepPart, protected Pointers {
  public:
   explicit ViscosityContrast(LAMMPS *lmp) : Pointers(lmp) {}
@@ -44,7 +55,7 @@ class ViscosityContrast : public StepPart, protected Pointers {
   void atoms_migrated() { knows_surfaces_ = false; }
   bool knows_surfaces() const { return knows_surfaces_; }
 
-  /// Finds the surfaces of the cells, where the atoms are now. Not collective.
+  /// Finds the surfaces of the cells, where the atoms are now. Collective.
   void find_surfaces();
 
   /// Finds what vertices see of the viscosity, with these surfaces. Costs a solve. Returns the
@@ -54,8 +65,8 @@ class ViscosityContrast : public StepPart, protected Pointers {
   /// Finds the viscosity on the grid inside of these surfaces, for output. Collective.
   void find_excess(const fluid::MarkerSet &markers);
 
-  /// The layer of atoms that move with atom->v, and by how much the mean of w over the box is above
-  /// that of u. Valid until the next call. Collective.
+  /// The layer of atoms that move with atom->v relative to their cells, and by how much the mean of
+  /// w over the box is above that of u. Valid until the next call. Collective.
   struct Moving {
     fluid::DoubleLayer layer;
     std::array<double, 3> mean_excess;
@@ -64,15 +75,19 @@ class ViscosityContrast : public StepPart, protected Pointers {
 
   /// To be called in place of layer() where the membranes are taken to be at rest: read() then
   /// expects no layer.
-  void leave_out_layer() { wrong_.assign(strength_.size(), 0.0); }
+  void leave_out_layer();
 
-  /// Makes velocities of the markers, three numbers for each of this rank's atoms, of what they see
-  /// of w with the last layer.
-  void read(const fluid::MarkerSet &markers, double *velocity) const;
+  /// Takes off what the markers see of w of the last layer, but should not: `seen` are three
+  /// numbers for each of this rank's atoms.
+  void take_off_wrong(const fluid::MarkerSet &markers, double *seen) const;
 
-  /// 1 / (1 + e), rows as the velocities'. Velocities that forces add beside the grid, the slips,
-  /// are to be multiplied with it, too. Valid until the next find_seen().
-  const double *parts() const { return part_.data(); }
+  /// Makes velocities of the markers of what they see of w with the last layer, after
+  /// take_off_wrong(), and of what forces add to that beside the grid, the slips. Collective.
+  void read(const fluid::MarkerSet &markers, double *velocity);
+
+  /// Adds to the flow the layers of the cells that move as a whole with atom->v: w is then
+  /// u eta(x) / eta. Costs a solve. Returns what find_seen() does. Collective.
+  int add_rigid_layers(const fluid::MarkerSet &markers);
 
   void report_to(const std::shared_ptr<CollectiveStop> & /*stop*/) override {}
   std::vector<Section> sections() override { return {{"Contrast", &stopwatch_}}; }
@@ -86,6 +101,8 @@ class ViscosityContrast : public StepPart, protected Pointers {
 
   DrivenFlow *flow_ = nullptr;
   std::vector<Kind> kinds_;
+  std::vector<RigidMotions> motions_;    ///< of all cells in this fluid
+  int in_cells_ = 0;                     ///< groups of their atoms
   const CellContact *contact_ = nullptr;
   std::unique_ptr<const fluid::GapMobility> gaps_;    ///< made where it is first needed
 
@@ -94,15 +111,25 @@ class ViscosityContrast : public StepPart, protected Pointers {
   std::vector<double> place_;       ///< position within the cell
   std::vector<double> part_;        ///< 1 / (1 + e), e what is seen of the layer of unit velocity
   std::vector<double> wrong_;       ///< what vertices see of w of the last layer, but should not
+  std::vector<double> rigid_;       ///< velocities of the cells as wholes, with the last layer
+  std::vector<double> relative_;    ///< of the vertices to these, with the last layer
+  std::vector<double> left_;        ///< of velocities, by which they differ from those of the layer
   std::vector<double> unit_;        ///< velocities
+  std::vector<double> remains_;     ///< of what is seen of other cells, and not taken off
   bool knows_surfaces_ = false;
   rbc::Stopwatch stopwatch_;
 
   double total_excess() const;
   double excess_of(int i) const;
   void add_blurred(fluid::KernelKind kernel);
+  template <typename Visit> void visit_seen(Visit visit) const;
+  double across(const rbc::VertexContact &contact, int d) const;
   void add_seen_across();
-  std::array<double, 3> mean_excess(const fluid::MarkerSet &markers) const;
+  void add_wholes_across();
+  void find_what_remains();
+  void find_rigid(const double *velocity, std::vector<double> &rigid);
+  void exchange_with_atoms(std::vector<double> &velocity) const;
+  std::array<double, 3> mean_excess(const fluid::MarkerSet &markers, const double *velocity) const;
 };
 
 }    // namespace LAMMPS_NS

@@ -17,6 +17,7 @@ enum class Remedy {
   stretch,
   contact,
   mesh,
+  grid,
   cutoff,
   skin,
   repel,
@@ -29,12 +30,12 @@ std::vector<Remedy> against(Flaw flaw)
   switch (flaw) {
     case Flaw::too_fast:
     case Flaw::unstable:
-      return {Remedy::stages, Remedy::adapt, Remedy::timestep, Remedy::contact};
+      return {Remedy::stages, Remedy::adapt, Remedy::timestep, Remedy::contact, Remedy::grid};
     case Flaw::not_finite:
-      return {Remedy::stages, Remedy::adapt, Remedy::timestep};
+      return {Remedy::stages, Remedy::adapt, Remedy::timestep, Remedy::grid};
     case Flaw::folded:
-      return {Remedy::dense,  Remedy::crease, Remedy::stretch,  Remedy::contact,
-              Remedy::stages, Remedy::adapt,  Remedy::timestep, Remedy::mesh};
+      return {Remedy::dense, Remedy::crease,   Remedy::stretch, Remedy::contact, Remedy::stages,
+              Remedy::adapt, Remedy::timestep, Remedy::mesh,    Remedy::grid};
     case Flaw::stretched:
       return {Remedy::dense,   Remedy::cutoff, Remedy::stretch,
               Remedy::contact, Remedy::adapt,  Remedy::mesh};
@@ -69,6 +70,8 @@ bool applies(Remedy remedy, const Situation &now)
       return now.lacks_contact;
     case Remedy::mesh:
       return now.membranes;
+    case Remedy::grid:
+      return now.finer_spacing > 0;
     default:
       return true;
   }
@@ -94,6 +97,11 @@ std::string text(Remedy remedy, const Situation &now)
       return "contact between cells (pair_style rbc/jkr)";
     case Remedy::mesh:
       return "a finer mesh of the cells";
+    case Remedy::grid:
+      return fmt::format(
+          "dx {:.3g} of fix rbc/fluid, as cells with another viscosity inside should "
+          "be two fluid cells thick",
+          now.finer_spacing);
     case Remedy::cutoff:
       return fmt::format("comm_modify cutoff {:.3g}", MORE * now.ghost_cutoff);
     case Remedy::skin:

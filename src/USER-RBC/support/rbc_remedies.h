@@ -28,6 +28,8 @@ struct Situation {
   bool membranes = false, creases = false, limits_stretch = false;    ///< all membranes have it
   bool several_cells = false, lacks_contact = false;
   double timestep = 0, ghost_cutoff = 0, skin = 0;
+  /// Of the fluid, with which cells of another viscosity inside are thick enough; 0 if they are.
+  double finer_spacing = 0;
 };
 
 /// What a user can do about the flaws seen, likeliest first, as the end of a message. Names only
