@@ -37,6 +37,12 @@ double square(double s)
   return s * s;
 }
 
+float at_most(double s)
+{
+  const float nearest = static_cast<float>(s);
+  return nearest > s ? std::nextafter(nearest, 0.0F) : nearest;
+}
+
 }    // namespace
 
 void NearTriangles::Spheres::resize(std::size_t size)
@@ -66,7 +72,7 @@ void NearTriangles::build(int points, const Surface *surfaces, int corners, cons
   reach_ = range + slack;
   slack_ = slack;
   travel_ = travel;
-  find_incident(corners);
+  find_spokes(corners);
   corners_ = corners;
   rebuild(x);
 }
@@ -194,55 +200,72 @@ void NearTriangles::find_hits(const SpatialBins &bins, PlainVector p, Surface un
     }
 }
 
-void NearTriangles::add_candidates(const double *x, int point)
+/* ----------------------------------------------------------------------
+   calls take(n, square of the distance) for count pairs of a point and the corners of a triangle,
+   pair(n)
+------------------------------------------------------------------------- */
+
+template <typename Pair, typename Take>
+void NearTriangles::visit_distances(const double *x, int count, const Pair &pair,
+                                    const Take &take) const
 {
-  const std::size_t first = candidates_.size();
   constexpr int most = 16;
-  double corner[9][most], distance2[most];
-  for (int begin = 0; begin < hit_count_; begin += most) {
-    const int count = std::min(most, hit_count_ - begin);
+  double number[12][most], distance2[most];
+  for (int begin = 0; begin < count; begin += most) {
+    const int size = std::min(most, count - begin);
     for (int n = 0; n < most; ++n) {    // the rest is filled up, so that loops have one length
-      const Triangle &triangle = triangles_[hits_[begin + std::min(n, count - 1)]];
-      for (int c = 0; c < 3; ++c)
-        for (int d = 0; d < 3; ++d)
-          corner[3 * c + d][n] = x[3 * std::size_t(triangle.corner[c]) + d];
+      const auto [point, corner] = pair(begin + std::min(n, size - 1));
+      for (int d = 0; d < 3; ++d) {
+        number[d][n] = x[3 * std::size_t(point) + d];
+        for (int c = 0; c < 3; ++c) number[3 + 3 * c + d][n] = x[3 * std::size_t(corner[c]) + d];
+      }
     }
-    const PlainVector p = at(x, point);
     for_each(most, [&](int n) {
-      const auto of = [&](int c) {
-        return PlainVector{corner[c][n], corner[c + 1][n], corner[c + 2][n]};
+      const auto of = [&](int d) {
+        return PlainVector{number[d][n], number[d + 1][n], number[d + 2][n]};
       };
-      distance2[n] = triangle_distance_square(p, of(0), of(3), of(6));
+      distance2[n] = triangle_distance_square(of(0), of(3), of(6), of(9));
     });
-    for (int n = 0; n < count; ++n) {
-      const int t = hits_[begin + n];
-      const Surface surface = triangles_[t].surface;
-      if (!(distance2[n] <= square(reach_))) continue;
-      if (surface == surfaces_[point] && !sees_own_(point, t)) continue;
-      candidates_.push_back({surface, std::sqrt(distance2[n]), t});
-    }
-  }
-  std::sort(candidates_.begin() + first, candidates_.end(),
-            [](const Candidate &a, const Candidate &b) {
-              return a.surface != b.surface ? a.surface < b.surface : a.distance < b.distance;
-            });
-  for (std::size_t c = first; c < candidates_.size(); ++c) {
-    if (c == first || candidates_[c].surface != candidates_[c - 1].surface)
-      groups_.push_back({point, static_cast<int>(c), 0});
-    groups_.back().end = static_cast<int>(c) + 1;
+    for (int n = 0; n < size; ++n) take(begin + n, distance2[n]);
   }
 }
 
-void NearTriangles::find_incident(int corners)
+void NearTriangles::add_candidates(const double *x, int point)
 {
-  incident_begin_.assign(corners + 1, 0);
+  found_.clear();
+  visit_distances(
+      x, hit_count_, [&](int n) { return std::pair(point, triangles_[hits_[n]].corner.data()); },
+      [&](int n, double distance2) {
+        const int t = hits_[n];
+        const Surface surface = triangles_[t].surface;
+        if (!(distance2 <= square(reach_))) return;
+        if (surface == surfaces_[point] && !sees_own_(point, t)) return;
+        found_.push_back({surface, std::sqrt(distance2), t});
+      });
+  std::sort(found_.begin(), found_.end(), [](const Found &a, const Found &b) {
+    return a.surface != b.surface ? a.surface < b.surface : a.distance < b.distance;
+  });
+  for (std::size_t n = 0; n < found_.size(); ++n) {
+    const int place = static_cast<int>(candidates_.size());
+    if (n == 0 || found_[n].surface != found_[n - 1].surface)
+      groups_.push_back({point, place, 0, place, 0});
+    groups_.back().end = place + 1;
+    candidates_.push_back({at_most(found_[n].distance), triangles_[found_[n].triangle].corner});
+  }
+}
+
+void NearTriangles::find_spokes(int corners)
+{
+  spokes_begin_.assign(corners + 1, 0);
   for (const Triangle &triangle : triangles_)
-    for (int v : triangle.corner) ++incident_begin_[v + 1];
-  for (int v = 0; v < corners; ++v) incident_begin_[v + 1] += incident_begin_[v];
-  incident_.resize(incident_begin_[corners]);
-  next_.assign(incident_begin_.begin(), incident_begin_.end() - 1);
-  for (std::size_t t = 0; t < triangles_.size(); ++t)
-    for (int v : triangles_[t].corner) incident_[next_[v]++] = static_cast<int>(t);
+    for (int v : triangle.corner) ++spokes_begin_[v + 1];
+  for (int v = 0; v < corners; ++v) spokes_begin_[v + 1] += spokes_begin_[v];
+  spokes_.resize(spokes_begin_[corners]);
+  next_.assign(spokes_begin_.begin(), spokes_begin_.end() - 1);
+  for (const Triangle &triangle : triangles_)
+    for (int c = 0; c < 3; ++c)
+      spokes_[next_[triangle.corner[c]]++] = {triangle.corner[(c + 1) % 3],
+                                              triangle.corner[(c + 2) % 3]};
 }
 
 /* ----------------------------------------------------------------------
@@ -256,49 +279,111 @@ double NearTriangles::largest_approach(const double *x)
 }
 
 /* ----------------------------------------------------------------------
-   no triangle can be nearer than it was less what it and the point came nearer to each other
+   Finds the nearest triangle of each group in reach. No triangle can be nearer than it was less
+   what it and the point came nearer to each other. The one that was nearest last time comes first,
+   so that few of the others need a look.
 ------------------------------------------------------------------------- */
+
+void NearTriangles::find_nearest(const double *x, double range)
+{
+  near_groups_.clear();
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const Group &group = groups_[g];
+    if (candidates_[group.begin].distance <= range + motion_.around(group.point))
+      near_groups_.push_back(static_cast<int>(g));
+  }
+  visit_distances(
+      x, static_cast<int>(near_groups_.size()),
+      [&](int n) {
+        const Group &group = groups_[near_groups_[n]];
+        return std::pair(group.point, candidates_[group.nearest].corner.data());
+      },
+      [&](int n, double distance2) { groups_[near_groups_[n]].distance2 = distance2; });
+
+  others_.clear();
+  for (int g : near_groups_) {
+    const Group &group = groups_[g];
+    const double far = std::min(range, std::sqrt(group.distance2)) + motion_.around(group.point);
+    for (int n = group.begin; n < group.end && !(candidates_[n].distance > far); ++n)
+      if (n != group.nearest) others_.push_back({g, n});
+  }
+  visit_distances(
+      x, static_cast<int>(others_.size()),
+      [&](int n) {
+        const auto &[g, candidate] = others_[n];
+        return std::pair(groups_[g].point, candidates_[candidate].corner.data());
+      },
+      [&](int n, double distance2) {
+        const auto &[g, candidate] = others_[n];
+        if (distance2 >= groups_[g].distance2) return;
+        groups_[g].distance2 = distance2;
+        groups_[g].nearest = candidate;
+      });
+}
 
 const std::vector<VertexContact> &NearTriangles::contacts(const double *x, double range)
 {
   if (largest_approach(x) > slack_) rebuild(x);
+  find_nearest(x, range);
   contacts_.clear();
-  for (const Group &group : groups_) {
-    const PlainVector p = at(x, group.point);
-    const double approach = motion_.around(group.point);
-    double nearest2 = square(range);
-    const Triangle *nearest = nullptr;
-    std::array<double, 3> weight{};
-    PlainVector apart{};
-    for (int n = group.begin; n < group.end; ++n) {
-      const double least = candidates_[n].distance - approach;
-      if (least > 0 && square(least) > nearest2) break;
-      const Triangle &triangle = triangles_[candidates_[n].triangle];
-      const PlainVector a = at(x, triangle.corner[0]), b = at(x, triangle.corner[1]),
-                        c = at(x, triangle.corner[2]);
-      const auto w = closest_point_weights(p, a, b, c);
-      const PlainVector r = p - weighted_point(w, a, b, c);
-      const double r2 = dot(r, r);
-      if (r2 >= nearest2) continue;
-      nearest2 = r2;
-      nearest = &triangle;
-      weight = w;
-      apart = r;
-    }
-    if (!nearest) continue;
-
-    const PlainVector a = at(x, nearest->corner[0]), b = at(x, nearest->corner[1]),
-                      c = at(x, nearest->corner[2]);
-    const PlainVector out = outward(x, nearest->corner, weight, cross(b - a, c - a));
-    const double distance = std::sqrt(nearest2);
-    const bool inside = dot(apart, out) < 0;
-    const bool has_direction = nearest2 > square(TOUCHING) * dot(b - a, b - a);
-    const PlainVector normal =
-        has_direction ? (inside ? -1 / distance : 1 / distance) * apart : (1 / norm(out)) * out;
-    contacts_.push_back(
-        {group.point, nearest->corner, weight, normal, inside ? -distance : distance});
-  }
+  for (int g : near_groups_)
+    if (groups_[g].distance2 < square(range)) add_contact(x, groups_[g]);
   return contacts_;
+}
+
+void NearTriangles::add_contact(const double *x, const Group &group)
+{
+  const PlainVector p = at(x, group.point);
+  const std::array<int, 3> &corner = candidates_[group.nearest].corner;
+  const PlainVector a = at(x, corner[0]), b = at(x, corner[1]), c = at(x, corner[2]);
+  const auto weight = closest_point_weights(p, a, b, c);
+  const PlainVector apart = p - weighted_point(weight, a, b, c), face = cross(b - a, c - a);
+  const double distance = norm(apart);
+  const bool inside = is_inside(x, corner, weight, face, apart);
+  const auto direction = [&] {
+    if (distance > TOUCHING * norm(b - a)) return (inside ? -1 / distance : 1 / distance) * apart;
+    const PlainVector out = outward(x, corner, weight, face);
+    return (1 / norm(out)) * out;
+  };
+  contacts_.push_back({group.point, corner, weight, direction(), inside ? -distance : distance});
+}
+
+/* ----------------------------------------------------------------------
+   calls f(edge to the next corner, edge to the last one) for each triangle around the edge or the
+   corner on which the closest point is
+------------------------------------------------------------------------- */
+
+template <typename Function>
+void NearTriangles::visit_around(const double *x, const std::array<int, 3> &corner,
+                                 const TriangleFeature &feature, const Function &f) const
+{
+  const int on[2] = {corner[feature.corner[0]],
+                     feature.count == 2 ? corner[feature.corner[1]] : -1};
+  for (int n = spokes_begin_[on[0]]; n < spokes_begin_[on[0] + 1]; ++n) {
+    const auto [next, last] = spokes_[n];
+    if (feature.count == 2 && next != on[1] && last != on[1]) continue;
+    f(at(x, next) - at(x, on[0]), at(x, last) - at(x, on[0]));
+  }
+}
+
+/* ----------------------------------------------------------------------
+   The outward direction is a sum of normals with positive weights, which need not be known where
+   all of these normals are on one side.
+------------------------------------------------------------------------- */
+
+bool NearTriangles::is_inside(const double *x, const std::array<int, 3> &corner,
+                              const std::array<double, 3> &weight, PlainVector face,
+                              PlainVector apart) const
+{
+  const TriangleFeature feature(weight);
+  if (feature.count == 3) return dot(apart, face) < 0;
+  bool above = false, below = false;
+  visit_around(x, corner, feature, [&](PlainVector to_next, PlainVector to_last) {
+    const double side = dot(apart, cross(to_next, to_last));
+    above |= side > 0;
+    below |= side < 0;
+  });
+  return above && below ? dot(apart, outward(x, corner, weight, face)) < 0 : below;
 }
 
 /* ----------------------------------------------------------------------
@@ -310,38 +395,32 @@ PlainVector NearTriangles::outward(const double *x, const std::array<int, 3> &co
                                    const std::array<double, 3> &weight, PlainVector face) const
 {
   const TriangleFeature feature(weight);
-  const int count = feature.count;
-  if (count == 3) return face;
-  const int on[2] = {corner[feature.corner[0]], count == 2 ? corner[feature.corner[1]] : -1};
-
+  if (feature.count == 3) return face;
   PlainVector sum{0, 0, 0};
-  for (int f = incident_begin_[on[0]]; f < incident_begin_[on[0] + 1]; ++f) {
-    const auto &v = triangles_[incident_[f]].corner;
-    const int place = v[0] == on[0] ? 0 : v[1] == on[0] ? 1 : 2;
-    const int next = v[(place + 1) % 3], last = v[(place + 2) % 3];
-    if (count == 2 && next != on[1] && last != on[1]) continue;
-    const PlainVector to_next = at(x, next) - at(x, on[0]), to_last = at(x, last) - at(x, on[0]);
+  visit_around(x, corner, feature, [&](PlainVector to_next, PlainVector to_last) {
     const PlainVector normal = cross(to_next, to_last);
     const double length = norm(normal);
-    const double angle = count == 2 ? 1 : arc_tangent(length, dot(to_next, to_last));
+    const double angle = feature.count == 2 ? 1 : arc_tangent(length, dot(to_next, to_last));
     sum = sum + (angle / length) * normal;
-  }
+  });
   return sum;
 }
 
 std::size_t NearTriangles::bytes() const
 {
   std::size_t integers = 0;
-  for (const auto *numbers : {&incident_begin_, &incident_, &bin_begin_, &bin_of_, &next_, &hits_})
+  for (const auto *numbers : {&spokes_begin_, &bin_begin_, &bin_of_, &next_, &hits_})
     integers += numbers->capacity();
-  return integers * sizeof(int) +
+  return integers * sizeof(int) + spokes_.capacity() * sizeof(Spokes) +
+         found_.capacity() * sizeof(Found) +
          (in_bin_.capacity() + around_bin_.capacity() + scratch_.capacity()) *
              sizeof(SurfaceRange) +
          surfaces_.capacity() * sizeof(Surface) + triangles_.capacity() * sizeof(Triangle) +
          motion_.bytes() +
          bounds_.capacity() *
              (sizeof(Sphere) + 4 * sizeof(double) + sizeof(Surface) + sizeof(int)) +
-         groups_.capacity() * sizeof(Group) + candidates_.capacity() * sizeof(Candidate) +
+         groups_.capacity() * sizeof(Group) + near_groups_.capacity() * sizeof(int) +
+         others_.capacity() * sizeof(others_[0]) + candidates_.capacity() * sizeof(Candidate) +
          contacts_.capacity() * sizeof(VertexContact);
 }
 

@@ -7,11 +7,13 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace rbc {
 
 class SpatialBins;
+struct TriangleFeature;
 
 /// A point near a surface and the place of the surface that is closest to it.
 struct VertexContact {
@@ -70,12 +72,23 @@ class NearTriangles {
   /// Triangles of one surface near one point.
   struct Group {
     int point, begin, end;
+    int nearest;         ///< when last looked for
+    double distance2;    ///< of that
   };
-  /// A triangle and its distance when built.
+  /// A triangle and its distance when built, or a little less. Kept small: there are many.
   struct Candidate {
+    float distance;
+    std::array<int, 3> corner;
+  };
+  /// Likewise, while those of a point are sorted.
+  struct Found {
     Surface surface;
     double distance;
     int triangle;
+  };
+  /// The other corners of a triangle, right-handed.
+  struct Spokes {
+    int next, last;
   };
   struct Sphere {
     PlainVector centre;
@@ -103,7 +116,8 @@ class NearTriangles {
   std::vector<Surface> surfaces_;    // of points
   std::vector<Triangle> triangles_;
   SeesOwn sees_own_;
-  std::vector<int> incident_begin_, incident_;    // triangles around each corner
+  std::vector<int> spokes_begin_;
+  std::vector<Spokes> spokes_;    // of the triangles around each corner
   RelativeMotion motion_;
   int corners_ = 0;
   std::vector<Sphere> bounds_;    // of each triangle
@@ -111,17 +125,29 @@ class NearTriangles {
   std::vector<SurfaceRange> in_bin_, around_bin_, scratch_;    // around: with the bins next to it
   std::vector<int> bin_begin_, bin_of_, next_, hits_;
   int hit_count_ = 0;
+  std::vector<Found> found_;
   std::vector<Group> groups_;
   std::vector<Candidate> candidates_;
+  std::vector<int> near_groups_;               // that may be in range
+  std::vector<std::pair<int, int>> others_;    // group and candidate that may be nearer
   std::vector<VertexContact> contacts_;
 
-  void find_incident(int corners);
+  void find_spokes(int corners);
   double bound_triangles(const double *x);
   void sort_spheres(const SpatialBins &bins);
   void find_surface_ranges(const SpatialBins &bins);
   void find_hits(const SpatialBins &bins, PlainVector point, Surface unseen, double far);
   bool any_seen(int first_bin, int last_bin, Surface unseen) const;
+  template <typename Pair, typename Take>
+  void visit_distances(const double *x, int count, const Pair &pair, const Take &take) const;
   void add_candidates(const double *x, int point);
+  void find_nearest(const double *x, double range);
+  void add_contact(const double *x, const Group &group);
+  template <typename Function>
+  void visit_around(const double *x, const std::array<int, 3> &corner,
+                    const TriangleFeature &feature, const Function &f) const;
+  bool is_inside(const double *x, const std::array<int, 3> &corner,
+                 const std::array<double, 3> &weight, PlainVector face, PlainVector apart) const;
   PlainVector outward(const double *x, const std::array<int, 3> &corner,
                       const std::array<double, 3> &weight, PlainVector face) const;
 };

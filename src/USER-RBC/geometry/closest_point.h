@@ -49,7 +49,8 @@ inline PlainVector weighted_point(const std::array<double, 3> &weight, PlainVect
 
 /// Square of the distance from x to a triangle, without branches: for loops that are to be
 /// vectorised.
-inline double triangle_distance_square(PlainVector x, PlainVector a, PlainVector b, PlainVector c)
+[[gnu::always_inline]] inline double triangle_distance_square(PlainVector x, PlainVector a,
+                                                              PlainVector b, PlainVector c)
 {
   const PlainVector ab = b - a, bc = c - b, ca = a - c;
   const PlainVector ax = x - a, bx = x - b, cx = x - c;

@@ -40,6 +40,7 @@ MembraneModel::MembraneModel(const SurfaceTemplate &shape, const MembraneParamet
     rest_curvature_(shape.curvature), edge1_(shape.triangles.size()),
     edge2_(shape.triangles.size()), normal_(shape.triangles.size()),
     twice_area_(shape.triangles.size()), corner_force_(3 * shape.triangles.size()),
+    length_(shape.hinges.size()), sine_(shape.hinges.size()), cosine_(shape.hinges.size()),
     moment_(shape.hinges.size()), pull_(shape.hinges.size()), vertex_area_(shape.vertex_count()),
     vertex_integral_(shape.vertex_count()), vertex_tension_(shape.vertex_count()),
     folded_(shape.triangles.size())
@@ -150,20 +151,31 @@ MembraneEnergy MembraneModel::forces(const AreaVolume &size, std::vector<Vec3> &
   return energy;
 }
 
+/// Directions and angles of the hinges.
+void MembraneModel::find_hinge_angles()
+{
+  const CellElements &elements = *elements_;
+  for_each(static_cast<int>(elements.hinges.size()), [&](int e) {
+    const PlainVector edge = position(x_, elements.end[e]) - position(x_, elements.begin[e]);
+    const double length = norm(edge);
+    const HingeAngle angle =
+        hinge_angle((1 / length) * edge, normal_[elements.left[e]], normal_[elements.right[e]]);
+    length_[e] = length;
+    sine_[e] = angle.sine;
+    cosine_[e] = angle.cosine;
+  });
+}
+
 /// Moments of the hinges.
 double MembraneModel::bend_hinges()
 {
   const CellElements &elements = *elements_;
   const double stiffness = dihedral_stiffness(parameters_.bending);
   return sum(static_cast<int>(elements.hinges.size()), [&](int e) {
-    const PlainVector edge = position(x_, elements.end[e]) - position(x_, elements.begin[e]);
-    const double over_length = 1 / norm(edge);
-    const HingeAngle angle =
-        hinge_angle(over_length * edge, normal_[elements.left[e]], normal_[elements.right[e]]);
     const RestAngle &rest = rest_angle_[elements.hinges[e]];
     const HingeEnergy hinge =
-        dihedral_bending(stiffness, angle.sine, angle.cosine, rest.sine, rest.cosine);
-    moment_[e] = hinge.by_angle * over_length;
+        dihedral_bending(stiffness, sine_[e], cosine_[e], rest.sine, rest.cosine);
+    moment_[e] = hinge.by_angle / length_[e];
     return elements.hinge_energy_weight[e] * hinge.value;
   });
 }
@@ -174,13 +186,9 @@ double MembraneModel::bend_vertices()
   const CellElements &elements = *elements_;
   const int hinges = static_cast<int>(elements.hinges.size());
   for_each(hinges, [&](int e) {
-    const PlainVector edge = position(x_, elements.end[e]) - position(x_, elements.begin[e]);
-    const double length = norm(edge);
-    const HingeAngle angle =
-        hinge_angle((1 / length) * edge, normal_[elements.left[e]], normal_[elements.right[e]]);
-    const double theta = arc_tangent(angle.sine, angle.cosine);
-    moment_[e] = theta * length;
-    pull_[e] = theta / length;
+    const double theta = arc_tangent(sine_[e], cosine_[e]);
+    moment_[e] = theta * length_[e];
+    pull_[e] = theta / length_[e];
   });
 
   std::fill(vertex_area_.begin(), vertex_area_.end(), 0.0);
@@ -215,12 +223,8 @@ double MembraneModel::resist_creases()
   const CellElements &elements = *elements_;
   const CreaseResistance &crease = parameters_.crease;
   return sum(static_cast<int>(elements.hinges.size()), [&](int e) {
-    const PlainVector edge = position(x_, elements.end[e]) - position(x_, elements.begin[e]);
-    const double over_length = 1 / norm(edge);
-    const HingeAngle angle =
-        hinge_angle(over_length * edge, normal_[elements.left[e]], normal_[elements.right[e]]);
-    const HingeEnergy hinge = crease_resistance(crease, angle.sine, angle.cosine);
-    moment_[e] += hinge.by_angle * over_length;
+    const HingeEnergy hinge = crease_resistance(crease, sine_[e], cosine_[e]);
+    moment_[e] += hinge.by_angle / length_[e];
     return elements.hinge_energy_weight[e] * hinge.value;
   });
 }
@@ -230,6 +234,7 @@ template <BendingForm form, typename Law>
 MembraneEnergy MembraneModel::load(const Law &law, const AreaVolume &size)
 {
   MembraneEnergy energy;
+  if constexpr (form != BendingForm::none) find_hinge_angles();
   if constexpr (form == BendingForm::dihedral) energy.bending = bend_hinges();
   if constexpr (form == BendingForm::helfrich) energy.bending = bend_vertices();
   if constexpr (form != BendingForm::none)

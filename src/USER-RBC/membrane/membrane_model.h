@@ -93,6 +93,7 @@ class MembraneModel {
     double sine, cosine;
   };
 
+  void find_hinge_angles();
   double bend_hinges();
   double bend_vertices();
   double resist_creases();
@@ -114,8 +115,9 @@ class MembraneModel {
   VectorArray edge1_, edge2_, normal_;    ///< of each triangle: from its first corner to the others
   std::vector<double> twice_area_;
   VectorArray corner_force_;
-  std::vector<double> moment_;    ///< of each hinge: d(energy)/d(angle) per length
-  std::vector<double> pull_;      ///< of each hinge: d(energy)/d(length) per length
+  std::vector<double> length_, sine_, cosine_;    ///< of each hinge and the angle of its normals
+  std::vector<double> moment_;                    ///< of each hinge: d(energy)/d(angle) per length
+  std::vector<double> pull_;                      ///< of each hinge: d(energy)/d(length) per length
   std::vector<double> vertex_area_, vertex_integral_;    ///< of the mean curvature
   std::vector<double> vertex_tension_;                   ///< d(bending energy)/d(vertex area)
   bool nearly_folded_ = false;
