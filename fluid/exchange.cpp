@@ -6,8 +6,6 @@ namespace fluid {
 
 namespace {
 
-constexpr int tag = 0;
-
 MPI_Datatype mpi_type(double)
 {
   return MPI_DOUBLE;
@@ -85,9 +83,10 @@ typename Exchange<T>::Side Exchange<T>::sorted(int me, int ranks,
 }
 
 template <typename T>
-Exchange<T>::Exchange(MPI_Comm comm, const std::vector<Transfer> &sends,
+Exchange<T>::Exchange(MPI_Comm comm, MessageTag tag, const std::vector<Transfer> &sends,
                       const std::vector<Transfer> &receives) :
-    comm_(comm)
+    comm_(comm),
+    tag_(tag)
 {
   int me, ranks;
   MPI_Comm_rank(comm, &me);
@@ -108,7 +107,7 @@ void Exchange<T>::run(const View<T> *from, const View<T> *to, int components, co
   T *arriving = incoming_.data();
   for (const Peer &peer : in.peers) {
     const int count = static_cast<int>(components * peer.size);
-    MPI_Irecv(arriving, count, mpi_type(T{}), peer.rank, tag, comm_, request++);
+    MPI_Irecv(arriving, count, mpi_type(T{}), peer.rank, tag_, comm_, request++);
     arriving += components * peer.size;
   }
 
@@ -118,7 +117,7 @@ void Exchange<T>::run(const View<T> *from, const View<T> *to, int components, co
     for (int c = 0; c < components; ++c)
       for (const Box &box : peer.boxes) leaving = pack(from[c], box, leaving);
     const std::ptrdiff_t count = leaving - begin;
-    MPI_Isend(begin, static_cast<int>(count), mpi_type(T{}), peer.rank, tag, comm_, request++);
+    MPI_Isend(begin, static_cast<int>(count), mpi_type(T{}), peer.rank, tag_, comm_, request++);
     ++traffic_.messages;
     traffic_.bytes += static_cast<long>(count * sizeof(T));
   }

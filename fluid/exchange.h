@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fluid/field.h"
+#include "fluid/message_tags.h"
 
 #include <mpi.h>
 #include <vector>
@@ -39,7 +40,7 @@ template <typename T> class Exchange {
   static constexpr int max_components = 3;
 
   Exchange() = default;
-  Exchange(MPI_Comm comm, const std::vector<Transfer> &sends,
+  Exchange(MPI_Comm comm, MessageTag tag, const std::vector<Transfer> &sends,
            const std::vector<Transfer> &receives);
 
   /// Overwrites the receiving boxes of `to` with the sending boxes of `from`.
@@ -84,6 +85,7 @@ template <typename T> class Exchange {
   static Side sorted(int me, int ranks, const std::vector<Transfer> &transfers);
 
   MPI_Comm comm_ = MPI_COMM_NULL;
+  MessageTag tag_ = HALO_TAG;
   Side sends_, receives_;
   Buffer<T> outgoing_, incoming_;
   std::vector<MPI_Request> requests_;

@@ -59,7 +59,7 @@ Halo::Halo(const Grid &grid, const Decomposition &decomposition, int width) :
                      sends.push_back({r, box.shifted({-shift[0], -shift[1], -shift[2]})});
                    });
   }
-  exchange_ = Exchange<double>(decomposition.comm, sends, receives);
+  exchange_ = Exchange<double>(decomposition.comm, HALO_TAG, sends, receives);
 }
 
 }    // namespace fluid

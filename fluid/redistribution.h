@@ -11,7 +11,7 @@ Exchange<T> exchange_between(MPI_Comm comm, const std::vector<Box> &from,
 {
   int me;
   MPI_Comm_rank(comm, &me);
-  return {comm, overlaps(from[me], to), overlaps(to[me], from)};
+  return {comm, REDISTRIBUTION_TAG, overlaps(from[me], to), overlaps(to[me], from)};
 }
 
 /// Moves a distributed array from one set of bricks (rank r owns from[r]) to another (to[r]).

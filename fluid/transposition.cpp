@@ -1,10 +1,10 @@
 #include "fluid/transposition.h"
 
+#include "fluid/message_tags.h"
+
 namespace fluid {
 
 namespace {
-
-constexpr int tag = 0;
 
 template <typename Copy> void for_each_row(const Box &box, int k, Copy copy)
 {
@@ -87,7 +87,7 @@ void Transposition::exchange(const Side &out, const Side &in, int components)
     const bool all = components == max_components;
     const int count = all ? 1 : static_cast<int>(piece.values.box.size());
     operation(piece.values.data, count, all ? piece.three_components.get() : MPI_C_DOUBLE_COMPLEX,
-              piece.rank, tag, comm_, request++);
+              piece.rank, TRANSPOSITION_TAG, comm_, request++);
   };
   for (const auto &piece : in.pieces_)
     if (piece.rank != rank_) start(piece, MPI_Irecv);

@@ -196,7 +196,7 @@ ComputeRBCAggregate::Surface ComputeRBCAggregate::surface_here() const
       for (int v = 0; v < membranes->shape().vertex_count(); ++v)
         if (cell.elements->owned[v]) surface.share[cell.atom[v]] /= areas[c];
       const int index = cells.index_of(local.molecules()[cell.index]);
-      if (index >= 0) surface.split[index] = cell.shared >= 0;
+      if (index >= 0) surface.split[index] = cell.shared;
     }
   }
   return surface;

@@ -109,7 +109,7 @@ void CellImages::take_from_neighbors(const LocalCells &cells)
   comm->forward_comm_array(3, rows.data());
 
   for (std::size_t c = 0; c < local.size(); ++c) {
-    if (local[c].shared < 0) continue;
+    if (!local[c].shared) continue;
     for (int v = 0; v < size; ++v) {
       const std::size_t n = c * size + v;
       const int i = local[c].atom[v];

@@ -145,7 +145,7 @@ void CellMembranes::add_forces()
   const auto &local = cells_.cells();
   for (std::size_t c = 0; c < local.size(); ++c) {
     set_current_cell(local[c]);
-    if (measuring && local[c].shared < 0) store_size(c);
+    if (measuring && !local[c].shared) store_size(c);
     check_mesh(local[c]);
     if (measuring) check_volume(local[c], sizes_[2 * c + 1]);
     // Where sizes are not measured, those of an earlier step stand here and the model uses none.
@@ -179,7 +179,7 @@ void CellMembranes::measure_shared_cells()
 {
   const auto &local = cells_.cells();
   for (std::size_t c = 0; c < local.size(); ++c) {
-    if (local[c].shared < 0) continue;
+    if (!local[c].shared) continue;
     set_current_cell(local[c]);
     store_size(c);
   }

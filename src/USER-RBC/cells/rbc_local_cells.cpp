@@ -18,7 +18,7 @@ LocalCells::LocalCells(LAMMPS *lmp, const rbc::SurfaceTemplate &shape, int group
                        std::string style) :
     Pointers(lmp),
     shape(shape), groupbit(groupbit), style(std::move(style)), images(lmp, shape, this->style),
-    whole(rbc::CellElements::whole(shape))
+    whole(rbc::CellElements::whole(shape)), sums(lmp)
 {
 }
 
@@ -79,7 +79,8 @@ void LocalCells::update_ownership(bool bending)
 {
   const std::vector<int> owned_count = find_owned();
   check_complete(owned_count);
-  find_shared(find_parts(owned_count, bending));
+  find_parts(owned_count, bending);
+  find_partners();
   find_images(std::exchange(starts_run, false));
   set_origins();
 }
@@ -116,7 +117,7 @@ std::vector<int> LocalCells::find_owned()
     }
     if (slot[index] < 0) {
       slot[index] = static_cast<int>(local.size());
-      local.push_back({index, nullptr, nullptr, nullptr, Vec3::Zero(), -1});
+      local.push_back({index, nullptr, nullptr, nullptr, Vec3::Zero(), false});
       owned_count.push_back(0);
       atoms.resize(atoms.size() + size, -1);
     }
@@ -129,16 +130,15 @@ std::vector<int> LocalCells::find_owned()
 }
 
 /* ----------------------------------------------------------------------
-   Adds the vertices of other ranks on which forces depend. Returns which cells are held in part.
+   adds the vertices of other ranks on which forces depend
 ------------------------------------------------------------------------- */
 
-std::vector<char> LocalCells::find_parts(const std::vector<int> &owned_count, bool bending)
+void LocalCells::find_parts(const std::vector<int> &owned_count, bool bending)
 {
   const int size = shape.vertex_count();
   CollectiveStop stop(lmp);
   parts.clear();
   parts.reserve(local.size());
-  std::vector<char> is_part(local.size());
   for (std::size_t c = 0; c < local.size(); ++c) {
     const std::size_t at = c * size;
     local[c].atom = &atoms[at];
@@ -147,14 +147,13 @@ std::vector<char> LocalCells::find_parts(const std::vector<int> &owned_count, bo
 
     std::vector<char> owned(size);
     for (int v = 0; v < size; ++v) owned[v] = atoms[at + v] >= 0;
-    is_part[c] = 1;
+    local[c].shared = true;
     find_neighbors(at, first_ids[local[c].index], owned, bending ? 2 : 1);
     parts.push_back(rbc::CellElements::part(shape, std::move(owned), bending));
     local[c].elements = &parts.back();
     check_neighbors(c, bending ? 3 : 2, stop);
   }
   stop.check();
-  return is_part;
 }
 
 /* ----------------------------------------------------------------------
@@ -241,21 +240,12 @@ void LocalCells::check_neighbors(std::size_t c, int rings, CollectiveStop &stop)
             Flaw::stretched);
 }
 
-void LocalCells::find_shared(const std::vector<char> &is_part)
+void LocalCells::find_partners()
 {
-  shared.clear();
-  if (comm->nprocs == 1) return;
-  std::vector<int> mine;
+  std::vector<SharedSums::Part> mine;
   for (std::size_t c = 0; c < local.size(); ++c)
-    if (is_part[c]) mine.push_back(local[c].index);
-
-  shared = gather_all(mine, world);
-  std::sort(shared.begin(), shared.end());
-  shared.erase(std::unique(shared.begin(), shared.end()), shared.end());
-  for (std::size_t c = 0; c < local.size(); ++c)
-    if (is_part[c])
-      local[c].shared = static_cast<int>(
-          std::lower_bound(shared.begin(), shared.end(), local[c].index) - shared.begin());
+    if (local[c].shared) mine.push_back({local[c].index, static_cast<int>(c)});
+  sums.find_partners(std::move(mine));
 }
 
 void LocalCells::find_images(bool starts_run)
@@ -273,16 +263,16 @@ void LocalCells::find_images(bool starts_run)
 void LocalCells::set_origins()
 {
   const int size = shape.vertex_count();
-  std::vector<double> sums(3 * local.size());
+  std::vector<double> position(3 * local.size());
   for (std::size_t c = 0; c < local.size(); ++c)
     for (int v = 0; v < size; ++v) {
       if (!local[c].elements->owned[v]) continue;
       const int i = atoms[c * size + v];
-      for (int d = 0; d < 3; ++d) sums[3 * c + d] += atom->x[i][d] + offsets[c * size + v][d];
+      for (int d = 0; d < 3; ++d) position[3 * c + d] += atom->x[i][d] + offsets[c * size + v][d];
     }
-  sum_shared(sums, 3);
+  sum_shared(position, 3);
   for (std::size_t c = 0; c < local.size(); ++c) {
-    local[c].origin = Vec3(&sums[3 * c]) / size;
+    local[c].origin = Vec3(&position[3 * c]) / size;
     for (int v = 0; v < size; ++v) offsets[c * size + v] -= local[c].origin;
   }
 }
@@ -297,14 +287,5 @@ void LocalCells::gather(const Cell &cell, std::vector<Vec3> &x) const
 
 void LocalCells::sum_shared(std::vector<double> &values, int width)
 {
-  if (shared.empty()) return;
-  buffer.assign(shared.size() * width, 0.0);
-  for (std::size_t c = 0; c < local.size(); ++c)
-    if (local[c].shared >= 0)
-      std::copy_n(&values[c * width], width, &buffer[std::size_t(local[c].shared) * width]);
-  MPI_Allreduce(MPI_IN_PLACE, buffer.data(), static_cast<int>(buffer.size()), MPI_DOUBLE, MPI_SUM,
-                world);
-  for (std::size_t c = 0; c < local.size(); ++c)
-    if (local[c].shared >= 0)
-      std::copy_n(&buffer[std::size_t(local[c].shared) * width], width, &values[c * width]);
+  sums.sum(values.data(), width);
 }

@@ -2,6 +2,7 @@
 #define LMP_RBC_LOCAL_CELLS_H
 
 #include "cells/rbc_cell_images.h"
+#include "cells/rbc_shared_sums.h"
 #include "lmptype.h"
 #include "membrane/membrane_model.h"
 #include "pointers.h"
@@ -26,7 +27,7 @@ class LocalCells : protected Pointers {
     /// From where the cell's coordinates count. The boxes that lie between are those of the first
     /// vertex's image flags.
     rbc::Vec3 origin;
-    int shared;    ///< number among the cells that several ranks share, -1 if this rank has it all
+    bool shared;    ///< whether other ranks have parts of it, too
 
     /// Of an owned vertex, unwrapped; x are the positions of LAMMPS's atoms.
     rbc::Vec3 position(int v, const double *const *x) const
@@ -53,12 +54,12 @@ class LocalCells : protected Pointers {
   /// Entries of vertices that this rank does not know are left alone.
   void gather(const Cell &cell, std::vector<rbc::Vec3> &x) const;
 
-  /// Collective: sums `values`, `width` numbers for each of cells(), over ranks for the cells that
-  /// several ranks share. The values of other cells stay as they are.
+  /// Sums `values`, `width` numbers for each of cells(), over ranks for the cells that several ranks
+  /// share, to be called by all of these. The values of other cells stay as they are.
   void sum_shared(std::vector<double> &values, int width);
 
   /// Whether ranks share cells; the same on all of them.
-  bool has_shared() const { return !shared.empty(); }
+  bool has_shared() const { return sums.any(); }
 
   /// The edge of all cells that is stretched most. Collective, after update_ownership().
   CellImages::Stretch largest_stretch() { return images.largest_stretch(*this); }
@@ -86,16 +87,15 @@ class LocalCells : protected Pointers {
   bool starts_run = true;    ///< the next update_ownership() is the first one of a run
   rbc::CellElements whole;
   std::vector<rbc::CellElements> parts;
-  std::vector<int> shared;    ///< cells that several ranks share, the same on all ranks
-  std::vector<double> buffer;
+  SharedSums sums;
 
   std::vector<Extent> find_extents() const;
   std::vector<int> find_owned();
-  std::vector<char> find_parts(const std::vector<int> &owned_count, bool bending);
+  void find_parts(const std::vector<int> &owned_count, bool bending);
   void check_complete(const std::vector<int> &owned_count) const;
   void find_neighbors(std::size_t at, tagint first, const std::vector<char> &owned, int rings);
   void check_neighbors(std::size_t c, int rings, CollectiveStop &stop) const;
-  void find_shared(const std::vector<char> &is_part);
+  void find_partners();
   void find_images(bool starts_run);
   void set_origins();
 };

@@ -67,7 +67,7 @@ void TractionFilter::for_shared_vertices(const Kind &kind, Function function) co
 {
   const auto &cells = kind.membranes->local_cells().cells();
   for (std::size_t c = 0; c < cells.size(); ++c)
-    if (cells[c].shared >= 0) for_owned(cells[c], kind, [&](int v, int i) { function(c, v, i); });
+    if (cells[c].shared) for_owned(cells[c], kind, [&](int v, int i) { function(c, v, i); });
 }
 
 /* ----------------------------------------------------------------------
@@ -101,7 +101,7 @@ template <class Load, class Store> void TractionFilter::filter_whole_cells(Load 
     cell_.resize(vertices);
     scratch_.resize(vertices);
     for (const LocalCells::Cell &cell : kind.membranes->local_cells().cells()) {
-      if (cell.shared >= 0) continue;
+      if (cell.shared) continue;
       for (int v = 0; v < vertices; ++v) cell_[v] = load(kind, v, cell.atom[v]);
       kind.filter.apply(cell_, scratch_);
       for (int v = 0; v < vertices; ++v) store(kind, v, cell.atom[v], cell_[v]);
