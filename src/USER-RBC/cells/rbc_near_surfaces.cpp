@@ -64,7 +64,11 @@ void NearSurfaces::init()
     const auto &molecules = membranes->local_cells().molecules();
     const auto &first = membranes->local_cells().first_atoms();
     for (std::size_t n = 0; n < molecules.size(); ++n)
-      if (!cells.insert({molecules[n], {static_cast<int>(shapes.size()) - 1, first[n]}}).second)
+      if (!cells
+               .insert({molecules[n],
+                        {static_cast<int>(shapes.size()) - 1, first[n],
+                         static_cast<rbc::NearTriangles::Surface>(cells.size())}})
+               .second)
         error->all(FLERR, "{}: molecule ID {} belongs to two fixes rbc/membrane", style,
                    molecules[n]);
   }
@@ -161,17 +165,17 @@ void NearSurfaces::build(double range, double slack_of_ghosts, double stale)
   for (std::size_t i = 0; i < cell_at.size(); ++i) cell_at[i] = cell_of(static_cast<int>(i));
   collect_triangles(longest_known_edge(range, slack_of_ghosts + stale));
   stop->check();
-  molecules.assign(atom->nlocal, rbc::NearTriangles::NO_SURFACE);
+  surfaces.assign(atom->nlocal, rbc::NearTriangles::NO_SURFACE);
   int points = 0;
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!cell_at[i]) continue;
-    molecules[i] = atom->molecule[i];
+    surfaces[i] = cell_at[i]->number;
     points = i + 1;
   }
   const double travel = 2 * slack_of_ghosts;    // back and forth
   rbc::NearTriangles::SeesOwn seen;
   if (own_patch > 0) seen = [this](int i, int triangle) { return sees_own(i, triangle); };
-  finder.build(points, molecules.data(), atom->nlocal + atom->nghost, atom->x[0], triangles, range,
+  finder.build(points, surfaces.data(), atom->nlocal + atom->nghost, atom->x[0], triangles, range,
                FINER * slack_of_ghosts, travel, seen);
 }
 
@@ -195,7 +199,7 @@ void NearSurfaces::collect_triangles(double longest)
       const int j = image_near(i, cell->first + corners[1], longest);
       const int k = image_near(i, cell->first + corners[2], longest);
       if (j >= 0 && k >= 0 && are_near(j, k, longest)) {
-        triangles.push_back({{i, j, k}, atom->molecule[i]});
+        triangles.push_back({{i, j, k}, cell->number});
         triangle_places.push_back(shape.places[t]);
         if (own_patch > 0) template_triangle.push_back(t);
       } else if (i < atom->nlocal)
@@ -275,7 +279,7 @@ double NearSurfaces::bytes() const
          triangles.capacity() * sizeof(rbc::NearTriangles::Triangle) +
          template_triangle.capacity() * sizeof(int) +
          triangle_places.capacity() * sizeof(rbc::TriangleFans::Place) +
-         molecules.capacity() * sizeof(rbc::NearTriangles::Surface) +
+         surfaces.capacity() * sizeof(rbc::NearTriangles::Surface) +
          cells.size() * sizeof(decltype(cells)::value_type) +
          cell_at.capacity() * sizeof(const Cell *);
 }

@@ -93,7 +93,8 @@ class NearSurfaces : protected Pointers {
  private:
   struct Cell {
     int shape;
-    tagint first;    ///< atom
+    tagint first;                          ///< atom
+    rbc::NearTriangles::Surface number;    ///< the same on all ranks
   };
   struct Shape {
     const rbc::SurfaceTemplate *surface;
@@ -115,10 +116,10 @@ class NearSurfaces : protected Pointers {
   std::vector<rbc::NearTriangles::Triangle> triangles;
   std::vector<int> template_triangle;    ///< of each, if vertices see their own cells
   std::vector<rbc::TriangleFans::Place> triangle_places;
-  std::vector<rbc::NearTriangles::Surface> molecules;    ///< of vertices; other atoms see nothing
-  rbc::HeldPositions built;                              ///< positions at build()
-  double own_patch = 0;                                  ///< 0: vertices do not see their own cells
-  double allowed = 0;                                    ///< displacement of an atom since build()
+  std::vector<rbc::NearTriangles::Surface> surfaces;    ///< of vertices; other atoms see nothing
+  rbc::HeldPositions built;                             ///< positions at build()
+  double own_patch = 0;                                 ///< 0: vertices do not see their own cells
+  double allowed = 0;                                   ///< displacement of an atom since build()
   bigint build_count = 0;
 
   const Cell *cell_of(int i) const;

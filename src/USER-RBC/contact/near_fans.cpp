@@ -132,7 +132,7 @@ std::size_t NearFans::bytes() const
   return fans_.bytes() + groups_.bytes() + integers * sizeof(int) + owned_.capacity() +
          surface_.capacity() * sizeof(Surface) +
          (centre_.capacity() + radius_.capacity()) * sizeof(double) +
-         spheres_.x.capacity() * (4 * sizeof(double) + 2 * sizeof(Surface) + sizeof(int));
+         spheres_.x.capacity() * (4 * sizeof(double) + 2 * sizeof(std::int64_t) + sizeof(int));
 }
 
 }    // namespace rbc

@@ -66,7 +66,7 @@ class NearFans {
   /// Of fans near owned ones, in the order of their bins.
   struct Spheres {
     std::vector<double> x, y, z, radius;
-    std::vector<Surface> surface, owned;    ///< owned: 1 if a corner is
+    std::vector<std::int64_t> surface, owned;    ///< owned: 1 if a corner is
     std::vector<int> fan;
 
     void resize(std::size_t size);
@@ -92,15 +92,15 @@ class NearFans {
     const Spheres &all = spheres_;
     const double px = all.x[sphere], py = all.y[sphere], pz = all.z[sphere],
                  far = reach_ + all.radius[sphere];
-    const Surface unseen = own_surfaces_ ? NearTriangles::NO_SURFACE : all.surface[sphere],
-                  owned = all.owned[sphere];
+    const std::int64_t unseen = own_surfaces_ ? NearTriangles::NO_SURFACE : all.surface[sphere],
+                       owned = all.owned[sphere];
     constexpr int most = 64;
     std::int64_t hit[most];    // as wide as all others in the loop
     for (int from = begin; from < end; from += most) {
       const int count = std::min(most, end - from);
       const double *const x = &all.x[from], *const y = &all.y[from], *const z = &all.z[from],
                           *const radius = &all.radius[from];
-      const Surface *const surface = &all.surface[from], *const here = &all.owned[from];
+      const std::int64_t *const surface = &all.surface[from], *const here = &all.owned[from];
       for_each((count + AT_ONCE - 1) / AT_ONCE * AT_ONCE, [&](int n) {
         const double dx = x[n] - px, dy = y[n] - py, dz = z[n] - pz, reached = far + radius[n];
         hit[n] = (dx * dx + dy * dy + dz * dz <= reached * reached) & (surface[n] != unseen) &

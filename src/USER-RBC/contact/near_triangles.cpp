@@ -20,7 +20,7 @@ constexpr double TOUCHING = 1e-10;
 
 // loops run on into what is no sphere any more, so that they have no rest that is not vectorised
 
-constexpr int LANES = 8;
+constexpr int LANES = 16;
 
 int whole_lanes(int count)
 {
@@ -52,12 +52,13 @@ void NearTriangles::Spheres::resize(std::size_t size)
   triangle.resize(size);
 }
 
-void NearTriangles::Spheres::set(int n, PlainVector centre, double r, Surface s, int t)
+void NearTriangles::Spheres::set(int n, const Sphere &sphere, Surface s, int t)
 {
-  x[n] = centre.x;
-  y[n] = centre.y;
-  z[n] = centre.z;
-  radius[n] = r;
+  const PlainVector centre = sphere.centre - origin;
+  x[n] = static_cast<float>(centre.x);
+  y[n] = static_cast<float>(centre.y);
+  z[n] = static_cast<float>(centre.z);
+  radius[n] = static_cast<float>(sphere.radius + error);
   surface[n] = s;
   triangle[n] = t;
 }
@@ -68,7 +69,7 @@ void NearTriangles::build(int points, const Surface *surfaces, int corners, cons
 {
   sees_own_ = std::move(sees_own);
   surfaces_.assign(surfaces, surfaces + points);
-  triangles_ = triangles;
+  triangles_ = &triangles;
   reach_ = range + slack;
   slack_ = slack;
   travel_ = travel;
@@ -79,11 +80,11 @@ void NearTriangles::build(int points, const Surface *surfaces, int corners, cons
 
 void NearTriangles::rebuild(const double *x)
 {
-  const double radius = bound_triangles(x), far = reach_ + radius;
+  const double radius = largest_radius(x), far = reach_ + radius;
   const double all_corners = reach_ + 2 * radius;    // of triangles in reach are as near
   motion_.hold(x, corners_, std::max(all_corners + slack_, (all_corners + travel_) / 2));
   const SpatialBins bins(x, corners_, far);
-  sort_spheres(bins);
+  sort_spheres(x, bins);
   find_surface_ranges(bins);
 
   groups_.clear();
@@ -98,40 +99,45 @@ void NearTriangles::rebuild(const double *x)
   }
 }
 
-/* ----------------------------------------------------------------------
-   returns the largest radius
-------------------------------------------------------------------------- */
-
-double NearTriangles::bound_triangles(const double *x)
+NearTriangles::Sphere NearTriangles::sphere_around(const double *x, const Triangle &triangle)
 {
-  bounds_.resize(triangles_.size());
-  double largest2 = 0;
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    const PlainVector a = at(x, triangles_[t].corner[0]), b = at(x, triangles_[t].corner[1]),
-                      c = at(x, triangles_[t].corner[2]);
-    const PlainVector centre = (1.0 / 3) * (a + b + c);
-    const double radius2 = std::max(
-        {dot(a - centre, a - centre), dot(b - centre, b - centre), dot(c - centre, c - centre)});
-    largest2 = std::max(largest2, radius2);
-    bounds_[t] = {centre, std::sqrt(radius2)};
-  }
-  return std::sqrt(largest2);
+  const PlainVector a = at(x, triangle.corner[0]), b = at(x, triangle.corner[1]),
+                    c = at(x, triangle.corner[2]);
+  const PlainVector centre = (1.0 / 3) * (a + b + c);
+  const double radius2 = std::max(
+      {dot(a - centre, a - centre), dot(b - centre, b - centre), dot(c - centre, c - centre)});
+  return {centre, std::sqrt(radius2)};
 }
 
-void NearTriangles::sort_spheres(const SpatialBins &bins)
+double NearTriangles::largest_radius(const double *x) const
 {
-  const std::size_t count = triangles_.size();
+  double largest = 0;
+  for (const Triangle &triangle : *triangles_)
+    largest = std::max(largest, sphere_around(x, triangle).radius);
+  return largest;
+}
+
+/* ----------------------------------------------------------------------
+   A coordinate of a point or a centre is off by half a digit of single precision, of the size of
+   the bins; the distance and its square by some digits of their own.
+------------------------------------------------------------------------- */
+
+void NearTriangles::sort_spheres(const double *x, const SpatialBins &bins)
+{
+  const std::size_t count = triangles_->size();
   bin_begin_.assign(bins.count() + 1, 0);
   bin_of_.resize(count);
   for (std::size_t t = 0; t < count; ++t) {
-    bin_of_[t] = bins.of(bounds_[t].centre);
+    bin_of_[t] = bins.of(sphere_around(x, (*triangles_)[t]).centre);
     ++bin_begin_[bin_of_[t] + 1];
   }
   for (int b = 0; b < bins.count(); ++b) bin_begin_[b + 1] += bin_begin_[b];
   next_.assign(bin_begin_.begin(), bin_begin_.end() - 1);
   spheres_.resize(count);
+  spheres_.origin = bins.lowest();
+  spheres_.error = 8 * std::numeric_limits<float>::epsilon() * (bins.extent() + reach_);
   for (std::size_t t = 0; t < count; ++t)
-    spheres_.set(next_[bin_of_[t]]++, bounds_[t].centre, bounds_[t].radius, triangles_[t].surface,
+    spheres_.set(next_[bin_of_[t]]++, sphere_around(x, (*triangles_)[t]), (*triangles_)[t].surface,
                  static_cast<int>(t));
 }
 
@@ -144,8 +150,8 @@ void NearTriangles::SurfaceRange::add(const SurfaceRange &other)
 void NearTriangles::find_surface_ranges(const SpatialBins &bins)
 {
   in_bin_.assign(bins.count(), {std::numeric_limits<Surface>::max(), NO_SURFACE});
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    const Surface surface = triangles_[t].surface;
+  for (std::size_t t = 0; t < triangles_->size(); ++t) {
+    const Surface surface = (*triangles_)[t].surface;
     in_bin_[bin_of_[t]].add({surface, surface});
   }
   around_bin_ = in_bin_;
@@ -171,7 +177,10 @@ void NearTriangles::find_hits(const SpatialBins &bins, PlainVector p, Surface un
   const int k0 = bins.along(2, p.z - far), k1 = bins.along(2, p.z + far);
   constexpr int most = 64;
   static_assert(most % LANES == 0);
-  std::int64_t hit[most];    // as wide as all others in the loop
+  std::int32_t hit[most];    // as wide as all others in the loop
+  const PlainVector from = p - spheres_.origin;
+  const auto px = static_cast<float>(from.x), py = static_cast<float>(from.y),
+             pz = static_cast<float>(from.z), reach = static_cast<float>(reach_);
   for (int k = k0; k <= k1; ++k)
     for (int j = j0; j <= j1; ++j) {
       const double left =
@@ -184,12 +193,12 @@ void NearTriangles::find_hits(const SpatialBins &bins, PlainVector p, Surface un
       const int begin = bin_begin_[first_bin], end = bin_begin_[last_bin + 1];
       for (int first = begin; first < end; first += most) {
         const int count = std::min(most, end - first);
-        const double *const x = &spheres_.x[first], *const y = &spheres_.y[first],
-                            *const z = &spheres_.z[first], *const radius = &spheres_.radius[first];
+        const float *const x = &spheres_.x[first], *const y = &spheres_.y[first],
+                           *const z = &spheres_.z[first], *const radius = &spheres_.radius[first];
         const Surface *const surface = &spheres_.surface[first];
         for_each(whole_lanes(count), [&](int n) {
-          const double apart2 = square(x[n] - p.x) + square(y[n] - p.y) + square(z[n] - p.z);
-          hit[n] = (apart2 <= square(reach_ + radius[n])) & (surface[n] != unseen);
+          const float dx = x[n] - px, dy = y[n] - py, dz = z[n] - pz, far_off = reach + radius[n];
+          hit[n] = (dx * dx + dy * dy + dz * dz <= far_off * far_off) & (surface[n] != unseen);
         });
         if (hits_.size() < std::size_t(hit_count_ + most)) hits_.resize(2 * (hit_count_ + most));
         for (int n = 0; n < count; ++n) {    // without branches: hits come at random
@@ -234,10 +243,10 @@ void NearTriangles::add_candidates(const double *x, int point)
 {
   found_.clear();
   visit_distances(
-      x, hit_count_, [&](int n) { return std::pair(point, triangles_[hits_[n]].corner.data()); },
+      x, hit_count_, [&](int n) { return std::pair(point, (*triangles_)[hits_[n]].corner.data()); },
       [&](int n, double distance2) {
         const int t = hits_[n];
-        const Surface surface = triangles_[t].surface;
+        const Surface surface = (*triangles_)[t].surface;
         if (!(distance2 <= square(reach_))) return;
         if (surface == surfaces_[point] && !sees_own_(point, t)) return;
         found_.push_back({surface, std::sqrt(distance2), t});
@@ -250,19 +259,19 @@ void NearTriangles::add_candidates(const double *x, int point)
     if (n == 0 || found_[n].surface != found_[n - 1].surface)
       groups_.push_back({point, place, 0, place, 0});
     groups_.back().end = place + 1;
-    candidates_.push_back({at_most(found_[n].distance), triangles_[found_[n].triangle].corner});
+    candidates_.push_back({at_most(found_[n].distance), (*triangles_)[found_[n].triangle].corner});
   }
 }
 
 void NearTriangles::find_spokes(int corners)
 {
   spokes_begin_.assign(corners + 1, 0);
-  for (const Triangle &triangle : triangles_)
+  for (const Triangle &triangle : *triangles_)
     for (int v : triangle.corner) ++spokes_begin_[v + 1];
   for (int v = 0; v < corners; ++v) spokes_begin_[v + 1] += spokes_begin_[v];
   spokes_.resize(spokes_begin_[corners]);
   next_.assign(spokes_begin_.begin(), spokes_begin_.end() - 1);
-  for (const Triangle &triangle : triangles_)
+  for (const Triangle &triangle : *triangles_)
     for (int c = 0; c < 3; ++c)
       spokes_[next_[triangle.corner[c]]++] = {triangle.corner[(c + 1) % 3],
                                               triangle.corner[(c + 2) % 3]};
@@ -415,10 +424,8 @@ std::size_t NearTriangles::bytes() const
          found_.capacity() * sizeof(Found) +
          (in_bin_.capacity() + around_bin_.capacity() + scratch_.capacity()) *
              sizeof(SurfaceRange) +
-         surfaces_.capacity() * sizeof(Surface) + triangles_.capacity() * sizeof(Triangle) +
-         motion_.bytes() +
-         bounds_.capacity() *
-             (sizeof(Sphere) + 4 * sizeof(double) + sizeof(Surface) + sizeof(int)) +
+         surfaces_.capacity() * sizeof(Surface) + motion_.bytes() +
+         spheres_.triangle.capacity() * (4 * sizeof(float) + sizeof(Surface) + sizeof(int)) +
          groups_.capacity() * sizeof(Group) + near_groups_.capacity() * sizeof(int) +
          others_.capacity() * sizeof(others_[0]) + candidates_.capacity() * sizeof(Candidate) +
          contacts_.capacity() * sizeof(VertexContact);

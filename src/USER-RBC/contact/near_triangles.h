@@ -30,7 +30,7 @@ struct VertexContact {
 /// Positions are three numbers for each point, of points and corners in one array.
 class NearTriangles {
  public:
-  using Surface = std::int64_t;
+  using Surface = std::int32_t;
   static constexpr Surface NO_SURFACE =
       std::numeric_limits<Surface>::min();    ///< a point of it sees nothing
 
@@ -45,8 +45,8 @@ class NearTriangles {
 
   /// Finds what comes within `range` of each other before anything has moved by travel / 2; where
   /// neighbors have come nearer by more than `slack` contacts() finds it anew. `surfaces[n]` is
-  /// that of point n < points <= corners; triangles have their corners among the `corners` first
-  /// positions. Without `sees_own` points see nothing of their own surface.
+  /// that of point n < points <= corners; `triangles`, which must stay, have their corners among
+  /// the `corners` first positions. Without `sees_own` points see nothing of their own surface.
   void build(int points, const Surface *surfaces, int corners, const double *x,
              const std::vector<Triangle> &triangles, double range, double slack, double travel,
              SeesOwn sees_own = {});
@@ -94,14 +94,17 @@ class NearTriangles {
     PlainVector centre;
     double radius;
   };
-  /// Bounding spheres of triangles, in the order of their bins.
+  /// Bounding spheres of triangles, in the order of their bins, with centres from an origin. Single
+  /// precision does, as spheres are made larger by what it may be off.
   struct Spheres {
-    std::vector<double> x, y, z, radius;
+    PlainVector origin;
+    double error = 0;    ///< of a distance
+    std::vector<float> x, y, z, radius;
     std::vector<Surface> surface;
     std::vector<int> triangle;
 
     void resize(std::size_t size);
-    void set(int n, PlainVector centre, double radius, Surface surface, int triangle);
+    void set(int n, const Sphere &sphere, Surface surface, int triangle);
   };
 
   /// Of the surfaces that have spheres in a bin, the lowest and the highest number.
@@ -114,13 +117,12 @@ class NearTriangles {
 
   double reach_ = 0, slack_ = 0, travel_ = 0;
   std::vector<Surface> surfaces_;    // of points
-  std::vector<Triangle> triangles_;
+  const std::vector<Triangle> *triangles_ = nullptr;
   SeesOwn sees_own_;
   std::vector<int> spokes_begin_;
   std::vector<Spokes> spokes_;    // of the triangles around each corner
   RelativeMotion motion_;
   int corners_ = 0;
-  std::vector<Sphere> bounds_;    // of each triangle
   Spheres spheres_;
   std::vector<SurfaceRange> in_bin_, around_bin_, scratch_;    // around: with the bins next to it
   std::vector<int> bin_begin_, bin_of_, next_, hits_;
@@ -133,8 +135,9 @@ class NearTriangles {
   std::vector<VertexContact> contacts_;
 
   void find_spokes(int corners);
-  double bound_triangles(const double *x);
-  void sort_spheres(const SpatialBins &bins);
+  static Sphere sphere_around(const double *x, const Triangle &triangle);
+  double largest_radius(const double *x) const;
+  void sort_spheres(const double *x, const SpatialBins &bins);
   void find_surface_ranges(const SpatialBins &bins);
   void find_hits(const SpatialBins &bins, PlainVector point, Surface unseen, double far);
   bool any_seen(int first_bin, int last_bin, Surface unseen) const;

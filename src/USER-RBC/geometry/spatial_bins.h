@@ -35,6 +35,10 @@ class SpatialBins {
     }
   }
 
+  /// Corner of the first bin, and the largest side of the box of all bins.
+  PlainVector lowest() const { return {lo_[0], lo_[1], lo_[2]}; }
+  double extent() const { return size_ * std::max({count_[0], count_[1], count_[2]}); }
+
   int count(int d) const { return count_[d]; }
   int count() const { return count_[0] * count_[1] * count_[2]; }
   int index(int i, int j, int k) const { return i + count_[0] * (j + count_[1] * k); }
