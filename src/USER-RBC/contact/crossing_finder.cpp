@@ -1,5 +1,6 @@
 #include "contact/crossing_finder.h"
 
+#include "geometry/rounding.h"
 #include "geometry/triangle_distance.h"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ constexpr double SPLIT = 3;
 
 constexpr double WIDE = 0.25;
 
-constexpr double UNKNOWN = -std::numeric_limits<double>::infinity();
+constexpr float UNKNOWN = -std::numeric_limits<float>::infinity();
 
 PlainVector at(const double *x, int n)
 {
@@ -59,12 +60,6 @@ double gap(const double *x, const Points &above, const Points &below, PlainVecto
   return span(x, above, line).lowest - span(x, below, line).highest;
 }
 
-PlainVector unit(PlainVector v)
-{
-  const double length = norm(v);
-  return length > 0 ? (1 / length) * v : PlainVector{1, 0, 0};
-}
-
 PlainVector twice_area(const double *x, const CrossingFinder::Triangle &triangle)
 {
   const PlainVector a = at(x, triangle.corner[0]);
@@ -85,6 +80,14 @@ bool share_corner(const CrossingFinder::Triangle &first, const CrossingFinder::T
 }
 
 }    // namespace
+
+CrossingFinder::Line CrossingFinder::unit(PlainVector v)
+{
+  const double length = norm(v);
+  if (!(length > 0)) return {1, 0, 0};
+  return {static_cast<float>(v.x / length), static_cast<float>(v.y / length),
+          static_cast<float>(v.z / length)};
+}
 
 CrossingFinder::Sphere CrossingFinder::sphere_around(const double *x, const Triangle &triangle)
 {
@@ -169,11 +172,19 @@ CrossingFinder::Outcome CrossingFinder::find(const double *x)
   return {true, found};
 }
 
+CrossingFinder::Pair CrossingFinder::fans_of(const Listed &listed) const
+{
+  if (listed.fans) return listed.pair;
+  const TriangleFans &fans = near_.fans();
+  return {fans.fan(listed.pair.first), fans.fan(listed.pair.second)};
+}
+
 bool CrossingFinder::stay_apart(const Listed &listed, const double *x)
 {
   if (!listed.apart) return false;
-  if (motion_.along(listed.in_fans.first, listed.line).lowest -
-          motion_.along(listed.in_fans.second, listed.line).highest >
+  const Pair fans = fans_of(listed);
+  if (motion_.along(fans.first, listed.line).lowest -
+          motion_.along(fans.second, listed.line).highest >
       -listed.gap)
     return true;
   return gap(x, corners(listed.pair.first, listed.fans), corners(listed.pair.second, listed.fans),
@@ -279,7 +290,7 @@ void CrossingFinder::consider_fans(const double *x, Pair fans)
   const Pair triangles{all.number[all.begin[fans.first]], all.number[all.begin[fans.second]]};
   const bool own = surfaces[0] == surfaces[1];
   if (own && scene_.fans_tested && !scene_.fans_tested(triangles)) return;
-  Listed listed{fans, fans, true, true, 0, {}};
+  Listed listed{fans, true, true, 0, {}};
   try_fan_lines(listed);
   if (listed.gap > reach_) return;
   if (!own && !scene_.tested(triangles)) return;
@@ -301,8 +312,7 @@ void CrossingFinder::try_fan_lines(Listed &listed) const
   if (listed.gap > WIDE * reach_) return;
   keep_line(listed, other.line, along(first, other.line), other.along);
   if (listed.gap > WIDE * reach_) return;
-  const PlainVector between =
-      unit(at(near_.centres().data(), first) - at(near_.centres().data(), second));
+  const Line between = unit(at(near_.centres().data(), first) - at(near_.centres().data(), second));
   keep_line(listed, between, along(first, between), along(second, between));
 }
 
@@ -310,15 +320,15 @@ void CrossingFinder::try_fan_lines(Listed &listed) const
    keeps a line along which the two are further apart
 ------------------------------------------------------------------------- */
 
-void CrossingFinder::keep_line(Listed &listed, PlainVector line, Bounds first, Bounds second)
+void CrossingFinder::keep_line(Listed &listed, Line line, Bounds first, Bounds second)
 {
   const double beyond = first.lowest - second.highest, back = second.lowest - first.highest;
   if (std::max(beyond, back) <= listed.gap) return;
-  listed.gap = std::max(beyond, back);
-  listed.line = beyond > back ? line : -1 * line;
+  listed.gap = rounded_down(std::max(beyond, back));
+  listed.line = beyond > back ? line : Line{-line.x, -line.y, -line.z};
 }
 
-void CrossingFinder::try_line(Listed &listed, const double *x, PlainVector line) const
+void CrossingFinder::try_line(Listed &listed, const double *x, Line line) const
 {
   keep_line(listed, line, span(x, corners(listed.pair.first, false), line),
             span(x, corners(listed.pair.second, false), line));
@@ -350,7 +360,7 @@ void CrossingFinder::split(const double *x, Pair fans, double reach)
     for (const Sphere &sphere : spheres_) {
       const PlainVector apart = own.centre - sphere.centre;
       const double far = reach + own.radius + sphere.radius;
-      if (dot(apart, apart) <= far * far) consider(x, {triangle, sphere.triangle}, fans, reach);
+      if (dot(apart, apart) <= far * far) consider(x, {triangle, sphere.triangle}, reach);
     }
   }
 }
@@ -365,13 +375,13 @@ void CrossingFinder::find_spheres(const double *x, int fan)
   }
 }
 
-void CrossingFinder::consider(const double *x, Pair pair, Pair fans, double reach)
+void CrossingFinder::consider(const double *x, Pair pair, double reach)
 {
   const Triangle &first = scene_.triangles[pair.first], &second = scene_.triangles[pair.second];
   if (!is_here(is_owned(pair.first), is_owned(pair.second), first.surface, second.surface)) return;
   if (first.surface == second.surface && (share_corner(first, second) || !scene_.tested(pair)))
     return;
-  Listed listed{pair, fans, false, false, UNKNOWN, {}};
+  Listed listed{pair, false, false, UNKNOWN, {}};
   const PlainVector between = sphere_around(x, first).centre - sphere_around(x, second).centre;
   for (const PlainVector &line : {between, twice_area(x, first), twice_area(x, second)}) {
     try_line(listed, x, unit(line));

@@ -75,14 +75,21 @@ class CrossingFinder {
   std::size_t bytes() const;
 
  private:
-  /// Two fans or two triangles, and a line along which the first is beyond the second.
+  /// Of unit length to single precision, in which its components are.
+  struct Line {
+    float x, y, z;
+
+    operator PlainVector() const { return {x, y, z}; }
+  };
+
+  /// Two fans or two triangles, and a line along which the first is beyond the second. Kept small:
+  /// there are many.
   struct Listed {
     Pair pair;
-    Pair in_fans;    ///< that are or have them
     bool fans;
-    bool apart;          ///< along the line at the start of the step
-    double gap;          ///< along it when listed
-    PlainVector line;    ///< of unit length
+    bool apart;    ///< along the line at the start of the step
+    float gap;     ///< along it when listed, or a little less
+    Line line;
   };
 
   /// Around a triangle.
@@ -94,7 +101,7 @@ class CrossingFinder {
 
   /// The normal of a fan, and where its corners were along it when listed.
   struct Normal {
-    PlainVector line;
+    Line line;
     Bounds along;
   };
 
@@ -129,11 +136,13 @@ class CrossingFinder {
   void consider_fans(const double *x, Pair fans);
   static Sphere sphere_around(const double *x, const Triangle &triangle);
   void find_spheres(const double *x, int fan);
+  Pair fans_of(const Listed &listed) const;
   void split(const double *x, Pair fans, double reach);
-  void consider(const double *x, Pair pair, Pair fans, double reach);
-  static void keep_line(Listed &listed, PlainVector line, Bounds first, Bounds second);
+  void consider(const double *x, Pair pair, double reach);
+  static Line unit(PlainVector v);
+  static void keep_line(Listed &listed, Line line, Bounds first, Bounds second);
   Bounds along(int fan, PlainVector line) const;
-  void try_line(Listed &listed, const double *x, PlainVector line) const;
+  void try_line(Listed &listed, const double *x, Line line) const;
   bool stay_apart(const Listed &listed, const double *x);
   bool triangles_touched(Listed &listed, const double *x);
   Corners corners(int body, bool fan) const;

@@ -2,6 +2,7 @@
 
 #include "geometry/arc_tangent.h"
 #include "geometry/closest_point.h"
+#include "geometry/rounding.h"
 #include "geometry/signed_distance.h"
 #include "geometry/spatial_bins.h"
 #include "geometry/vector_loop.h"
@@ -35,12 +36,6 @@ PlainVector at(const double *x, int n)
 double square(double s)
 {
   return s * s;
-}
-
-float at_most(double s)
-{
-  const float nearest = static_cast<float>(s);
-  return nearest > s ? std::nextafter(nearest, 0.0F) : nearest;
 }
 
 }    // namespace
@@ -259,7 +254,8 @@ void NearTriangles::add_candidates(const double *x, int point)
     if (n == 0 || found_[n].surface != found_[n - 1].surface)
       groups_.push_back({point, place, 0, place, 0});
     groups_.back().end = place + 1;
-    candidates_.push_back({at_most(found_[n].distance), (*triangles_)[found_[n].triangle].corner});
+    candidates_.push_back(
+        {rounded_down(found_[n].distance), (*triangles_)[found_[n].triangle].corner});
   }
 }
 

@@ -34,6 +34,9 @@ class TriangleFans {
   void join(const std::vector<NearTriangles::Triangle> &all, const std::vector<Place> &places,
             int points);
 
+  /// In which a triangle is.
+  int fan(int triangle) const { return fan_of_[triangle]; }
+
   std::size_t bytes() const;
 
  private:
