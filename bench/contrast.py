@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Cost of a step of dense blood whose cells have an inside of another viscosity, over that with one
 viscosity, which runs before each of them. Runs examples/blood/in.blood with 10 or 11 cells of 40 %
-in a small box; writes contrast.csv to a folder and prints it.
+in a small box; writes contrast.csv to a folder and prints it. With --ratios only rows of these are
+measured; others that its contrast.csv already holds stay.
 
-contrast.py --output FOLDER [--lmp ../build/lmp_rbc]
+contrast.py --output FOLDER [--lmp ../build/lmp_rbc] [--ratios 100]
 """
 import csv
 import re
@@ -19,7 +20,7 @@ import example_study  # noqa: E402
 SCRIPT = HERE.parent / "examples" / "blood" / "in.blood"
 PLASMA = 1.4965                      # mPa s, as in healthy.material
 GRIDS = ("rbc_162", 0.65), ("rbc_362", 0.65), ("rbc_362", 0.5)    # dx in um
-RATIOS = 5, 10, 20, 0.2              # of viscosities, inside over outside
+RATIOS = 5, 10, 20, 100, 0.2         # of viscosities, inside over outside
 BOX = {"length": 14, "gap": 12, "strain": 4, "frames": 1000000}
 COLUMNS = ("vertices", "dx", "ratio", "steps", "stages", "solves_per_step", "iterations",
            "seconds_per_step", "over_one_viscosity", "relative_viscosity")
@@ -45,20 +46,32 @@ def main():
     parser = command_line.parser(__doc__)
     command_line.add_results(parser)
     parser.add_argument("--lmp", default=str(HERE.parent / "build" / "lmp_rbc"))
+    parser.add_argument("--ratios", nargs="+", type=float, choices=RATIOS, help="default all")
     arguments = command_line.parse(parser, HERE)
     arguments.ranks = 1
-    with open(arguments.output / "contrast.csv", "w", newline="", encoding="utf-8") as stream:
-        writer = csv.writer(stream, lineterminator="\n")
-        for row in rows(arguments):
-            writer.writerow(row)
-            stream.flush()
-            print(*row, sep=", ", flush=True)
+    path = arguments.output / "contrast.csv"
+    table = {}
+    if arguments.ratios and path.exists():
+        with open(path, newline="", encoding="utf-8") as stream:
+            table = {key(row): row for row in list(csv.reader(stream))[1:]}
+    for row in rows(arguments):
+        print(*row, sep=", ", flush=True)
+        table[key(row)] = row
+        with open(path, "w", newline="", encoding="utf-8") as stream:
+            writer = csv.writer(stream, lineterminator="\n")
+            writer.writerow(COLUMNS)
+            writer.writerows(table[place] for place in sorted(table))
+
+
+def key(row):
+    """Place of a row in the table: by grids and ratios as listed above."""
+    grids = [(shape[4:], f"{dx:g}") for shape, dx in GRIDS]
+    return grids.index((row[0], f"{float(row[1]):g}")), (1, *RATIOS).index(float(row[2]))
 
 
 def rows(arguments):
-    yield COLUMNS
     for shape, dx in GRIDS:
-        for ratio in RATIOS:
+        for ratio in arguments.ratios or RATIOS:
             alone = blood(arguments, shape, dx, 1)
             if ratio == RATIOS[0]:
                 yield row_of(shape, dx, 1, alone, alone)
@@ -67,7 +80,7 @@ def rows(arguments):
 
 def row_of(shape, dx, ratio, of_run, alone):
     steps, stages, solves, seconds, iterations, viscosity = of_run
-    return (shape[4:], dx, ratio, steps, f"{stages:.0f}", f"{solves:.1f}", f"{iterations:.2f}",
+    return (shape[4:], dx, f"{ratio:g}", steps, f"{stages:.0f}", f"{solves:.1f}", f"{iterations:.2f}",
             f"{seconds:.4f}", f"{seconds / alone[3]:.2f}", f"{viscosity:.2f}")
 
 

@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 """Error of a capsule of another viscosity inside against grid spacing, box and run time.
 
-Runs in.contrast for a list of cases, writes contrast.csv to a folder, compares deformation and
-inclination with the boundary-element results of examples/reference and with the theory of small
-deformation, and draws contrast.png. Cases that its contrast.csv already holds are not run again.
+Runs in.contrast for a list of cases, writes contrast.csv and steady.csv to a folder, compares
+deformation, inclination and tank-treading with the boundary-element results of examples/reference
+and with the theory of small deformation, and draws contrast.png. Cases that these files already
+hold are not run again.
 
 study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--only contrast] [--ranks 1]
 """
@@ -18,11 +19,17 @@ sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts"))
 import command_line  # noqa: E402
 import numpy as np  # noqa: E402
 from example_study import options, run_cases, run_script  # noqa: E402
+from membrane_motion import read_dump, revolutions  # noqa: E402
 from read_ave_time import read_ave_time, read_csv  # noqa: E402
 
 REFERENCE = os.path.join(HERE, "..", "reference", "02j_capsule_shear_BEM_contrast_transient.csv")
+STEADY_REFERENCE = os.path.join(HERE, "..", "reference", "02k_capsule_shear_BEM_contrast_steady.csv")
 COLUMNS = ["t", "D", "inclination", "iterations", "solves", "core_seconds"]
 T, D, INCLINATION, ITERATIONS, SOLVES, SECONDS = range(len(COLUMNS))
+# Of the end of a long run: means over half a period of tank-treading, and largest less smallest.
+STEADY_COLUMNS = ["t", "D", "inclination", "period", "D_range", "inclination_range", "iterations",
+                  "solves", "core_seconds"]
+PERIOD, D_RANGE, INCLINATION_RANGE = 3, 4, 5
 TIMESTEP = 0.02    # of in.contrast
 RATIOS = (1, 2, 5, 10)
 SMALL_RATIOS = (0.2, 1, 5)
@@ -39,6 +46,9 @@ CHOICE_SPACING = 4    # cells a radius in runs for tolerance and time step
 STRAINS = (0.5, 1, 1.5, 2)
 BASE_BOX = 8
 BOX_SPACING = 4    # cells a radius in runs that tell what the box does
+# Strains of long runs: the more viscous, the longer a capsule swings.
+LONG = {1: 16, 2: 16, 5: 20, 10: 36}
+MOONEY = dict(series="steady-mooney", law="Mooney-Rivlin psi=0.5")
 
 
 def label(series, inside, cells, box=BASE_BOX):
@@ -76,6 +86,17 @@ def cases():
         yield case("long", 5, cells, box, strain=10)
 
 
+def steady_cases():
+    """The same of the runs that end in a steady shape."""
+    for inside, strain in LONG.items():
+        for cells, box in ((4, 8), (4, 12), (6, 8)):
+            yield case("steady", inside, cells, box, strain=strain, trace=1)
+        if inside < 10:
+            yield case("steady", inside, 8, strain=strain, trace=1)
+    for cells, box in ((4, 8), (4, 12), (6, 8)):
+        yield case(MOONEY["series"], 5, cells, box, strain=LONG[5], trace=1, psi=0.5)
+
+
 def shape_rows(history, timestep):
     """t, D and inclination of each output."""
     axis = history.columns(11, 13)[:, 0]
@@ -83,20 +104,39 @@ def shape_rows(history, timestep):
     return list(zip(history.steps * timestep, history.column(7)[:, 0], angle))
 
 
+def steady_row(history, traced, timestep):
+    """STEADY_COLUMNS without the costs. In half a period each vertex makes half a revolution, and
+    its mate opposite the other one."""
+    steps, positions = traced
+    strain = steps * timestep
+    left = revolutions(positions).mean(axis=1)
+    left = abs(left[-1] - left)
+    begin = np.interp(-0.5, -left, strain)
+    rows = np.array(shape_rows(history, timestep))
+    rows = rows[rows[:, T] >= begin]
+    return [strain[-1], *rows[:, [D, INCLINATION]].mean(axis=0), 2 * (strain[-1] - begin),
+            *np.ptp(rows[:, [D, INCLINATION]], axis=0)]
+
+
 def run(arguments, variables):
-    """A row of COLUMNS for each output of one run."""
+    """A row of COLUMNS for each output of one run, or with `trace` one row of STEADY_COLUMNS."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    timestep = variables.get("timestep", TIMESTEP)
     with tempfile.TemporaryDirectory() as folder:
         done = run_script(arguments, os.path.join(HERE, "in.contrast"), folder, variables)
         done.check_returncode()
         history = read_ave_time(os.path.join(folder, "cell.dat"))
+        if "trace" in variables:
+            traced = read_dump(os.path.join(folder, "section.dump"))
+            found = [steady_row(history, traced, timestep)]
+        else:
+            found = shape_rows(history, timestep)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     solves = float(re.search(r"(\d+) solves in", done.stdout).group(1))
     thermo = done.stdout.split("USER-RBC step cost")[0].rstrip().splitlines()
     iterations = float(thermo[-1].split()[-2])
-    return [[*row, iterations, solves, seconds]
-            for row in shape_rows(history, variables.get("timestep", TIMESTEP))]
+    return [[*row, iterations, solves, seconds] for row in found]
 
 
 def references(inside, law="neo-Hookean"):
@@ -118,9 +158,10 @@ def relaxation_time(inside, ca):
 
 
 def at(table, name, time):
-    """D and inclination of a run at a time."""
+    """D, inclination and, of a steady shape, the period of a run at a time."""
     rows = table[name]
-    return np.array([np.interp(time, rows[:, T], rows[:, column]) for column in (D, INCLINATION)])
+    last = PERIOD if rows.shape[1] == len(STEADY_COLUMNS) else INCLINATION
+    return np.array([np.interp(time, rows[:, T], rows[:, n]) for n in range(D, last + 1)])
 
 
 def spacings(table, series, inside):
@@ -167,6 +208,26 @@ def report_transients(table, series, law, ratios, times=STRAINS):
             columns = [f"{value:.{digits}f} | {percent([one])} | {percent([other])}"
                        for value, digits, one, other in zip(exact, (4, 2), *errors)]
             print(f"| {inside:g} | {time:g} | {' | '.join(columns)} |")
+
+
+def report_steady(table, series="steady", law="neo-Hookean", ratios=tuple(LONG)):
+    exact_rows = [row for row in read_csv(STEADY_REFERENCE) if row["law"] == law]
+    names = "D_ell", "inclination_deg", "tank_tread_period_gdot"
+    for inside in ratios:
+        row, = (row for row in exact_rows if float(row["lambda"]) == inside)
+        exact = np.array([float(row[name]) for name in names])
+        errors = [at(table, label(series, inside, cells), LONG[inside]) / exact - 1
+                  for cells in spacings(table, series, inside)]
+        limit = extrapolated(table, series, inside, LONG[inside]) / exact - 1
+        print(f"\n{series}: {law}, lambda {inside:g}: boundary elements; errors by dx in a box of 8, "
+              "extrapolated; of D, inclination and period")
+        for n, digits in enumerate((4, 2, 2)):
+            print(f"| {inside:g} | {exact[n]:.{digits}f} | {percent(np.array(errors)[:, n])} | "
+                  f"{percent([limit[n]])} |")
+        finest = spacings(table, series, inside)[-1]
+        last = table[label(series, inside, finest)][-1]
+        print(f"at dx = 1/{finest} to strain {last[T]:g}: ranges in half a period {last[D_RANGE]:.4f} of D, "
+              f"{last[INCLINATION_RANGE]:.2f} degrees; {last[-1]:.0f} core seconds")
 
 
 def costs(last, timestep):
@@ -247,8 +308,14 @@ def plot(table, path):
 
 
 def main():
-    arguments = command_line.parse(options(__doc__, (series for series, *_ in cases())), HERE)
+    every = [*cases(), *steady_cases()]
+    arguments = command_line.parse(options(__doc__, (series for series, *_ in every)), HERE)
     table = run_cases(arguments, arguments.output / "contrast.csv", COLUMNS, cases(), run)
+    steady_table = run_cases(arguments, arguments.output / "steady.csv", STEADY_COLUMNS,
+                             steady_cases(), run)
+    if all(name in steady_table for _, name, _ in steady_cases()):
+        report_steady(steady_table)
+        report_steady(steady_table, **MOONEY, ratios=[5])
     if any(name not in table for _, name, _ in cases()):
         return
     report_transients(table, "contrast", "neo-Hookean", RATIOS)

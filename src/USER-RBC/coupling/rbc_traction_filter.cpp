@@ -195,20 +195,20 @@ void TractionFilter::leave_out_forces()
 }
 
 /* ----------------------------------------------------------------------
-   P u + slip (1 - P) t' = P (u - slip t') + slip t', with t' = (1 - P) t; slip times t' is in rough_
+   P u + slip (1 - P) t' = P (u - slip t') + slip t', with t' = (1 - P) t
 ------------------------------------------------------------------------- */
 
 void TractionFilter::smooth_velocities(double *velocity)
 {
   stopwatch_.start();
-  for (int i = 0; i < atom->nlocal; ++i)
-    for (int d = 0; d < 3; ++d) rough_[i][d] *= slip_;
-  filter([&](const Kind & /*kind*/, int /*v*/,
-             int i) -> Row { return row_of(velocity + 3 * std::size_t(i)) - row_of(rough_[i]); },
-         [&](const Kind & /*kind*/, int /*v*/, int i, const Row &smooth) {
-           const Row moves = smooth + row_of(rough_[i]);
-           std::copy_n(moves.data(), 3, velocity + 3 * std::size_t(i));
-         });
+  filter(
+      [&](const Kind & /*kind*/, int /*v*/, int i) -> Row {
+        return row_of(velocity + 3 * std::size_t(i)) - slip_ * row_of(rough_[i]);
+      },
+      [&](const Kind & /*kind*/, int /*v*/, int i, const Row &smooth) {
+        const Row moves = smooth + slip_ * row_of(rough_[i]);
+        std::copy_n(moves.data(), 3, velocity + 3 * std::size_t(i));
+      });
   stopwatch_.stop();
 }
 
