@@ -80,8 +80,8 @@ def rows(arguments):
 
 def row_of(shape, dx, ratio, of_run, alone):
     steps, stages, solves, seconds, iterations, viscosity = of_run
-    return (shape[4:], dx, f"{ratio:g}", steps, f"{stages:.0f}", f"{solves:.1f}", f"{iterations:.2f}",
-            f"{seconds:.4f}", f"{seconds / alone[3]:.2f}", f"{viscosity:.2f}")
+    return (shape[4:], dx, f"{ratio:g}", steps, f"{stages:.0f}", f"{solves:.1f}",
+            f"{iterations:.2f}", f"{seconds:.4f}", f"{seconds / alone[3]:.2f}", f"{viscosity:.2f}")
 
 
 if __name__ == "__main__":

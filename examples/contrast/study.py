@@ -22,8 +22,9 @@ from example_study import options, run_cases, run_script  # noqa: E402
 from membrane_motion import read_dump, revolutions  # noqa: E402
 from read_ave_time import read_ave_time, read_csv  # noqa: E402
 
-REFERENCE = os.path.join(HERE, "..", "reference", "02j_capsule_shear_BEM_contrast_transient.csv")
-STEADY_REFERENCE = os.path.join(HERE, "..", "reference", "02k_capsule_shear_BEM_contrast_steady.csv")
+REFERENCES = os.path.join(HERE, "..", "reference")
+REFERENCE = os.path.join(REFERENCES, "02j_capsule_shear_BEM_contrast_transient.csv")
+STEADY_REFERENCE = os.path.join(REFERENCES, "02k_capsule_shear_BEM_contrast_steady.csv")
 COLUMNS = ["t", "D", "inclination", "iterations", "solves", "core_seconds"]
 T, D, INCLINATION, ITERATIONS, SOLVES, SECONDS = range(len(COLUMNS))
 # Of the end of a long run: means over half a period of tank-treading, and largest less smallest.
@@ -219,15 +220,16 @@ def report_steady(table, series="steady", law="neo-Hookean", ratios=tuple(LONG))
         errors = [at(table, label(series, inside, cells), LONG[inside]) / exact - 1
                   for cells in spacings(table, series, inside)]
         limit = extrapolated(table, series, inside, LONG[inside]) / exact - 1
-        print(f"\n{series}: {law}, lambda {inside:g}: boundary elements; errors by dx in a box of 8, "
-              "extrapolated; of D, inclination and period")
+        print(f"\n{series}: {law}, lambda {inside:g}: boundary elements; errors by dx in a box "
+              "of 8, extrapolated; of D, inclination and period")
         for n, digits in enumerate((4, 2, 2)):
             print(f"| {inside:g} | {exact[n]:.{digits}f} | {percent(np.array(errors)[:, n])} | "
                   f"{percent([limit[n]])} |")
         finest = spacings(table, series, inside)[-1]
         last = table[label(series, inside, finest)][-1]
-        print(f"at dx = 1/{finest} to strain {last[T]:g}: ranges in half a period {last[D_RANGE]:.4f} of D, "
-              f"{last[INCLINATION_RANGE]:.2f} degrees; {last[-1]:.0f} core seconds")
+        print(f"at dx = 1/{finest} to strain {last[T]:g}: ranges in half a period "
+              f"{last[D_RANGE]:.4f} of D, {last[INCLINATION_RANGE]:.2f} degrees; "
+              f"{last[-1]:.0f} core seconds")
 
 
 def costs(last, timestep):
