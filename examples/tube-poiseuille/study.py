@@ -24,8 +24,7 @@ from surface_gaps import read_cells  # noqa: E402
 RADIUS, DX, SPEED = 11.25, 0.6, 187.5e-6      # of in.tube-poiseuille
 DISC = 7.82                                   # diameter D of a cell at rest, um
 WALL, AXIS = "#2a6fb0", "#3d9141"             # the paper's colors of the two cells
-CASES = {"tube-poiseuille": {},               # variables of in.tube-poiseuille; README: why 0.4 s
-         "inside": {"inside": 7.4825, "duration": 400000}}
+CASES = {"tube-poiseuille": {}, "inside": {"inside": 7.4825}}    # variables of in.tube-poiseuille
 WORDS = {"tube-poiseuille": "inside as viscous as plasma", "inside": "inside five times as viscous"}
 OUTER = 7.5                                   # distance of outer cells from the axis, um
 START = 2.0                                   # time * mean velocity / D from which means are taken
