@@ -80,7 +80,7 @@ class FixRBCIB : public Fix,
   std::unique_ptr<GapSlip> gaps;    // null with gaps no
   TractionFilter tractions;
   mutable ViscosityContrast contrast;    // makes what it needs when asked for gaps
-  AtomRows *exchanged = nullptr;    // in the exchange of ghosts that is under way
+  AtomRows *exchanged = nullptr;         // in the exchange of ghosts that is under way
   StepCost cost;
 
   std::string store_id;
