@@ -1,5 +1,6 @@
-// Counts the messages that a program sends: to be preloaded. Rank 0 writes the means over the ranks, and the largest of
-// any rank, to the file that COUNT_MESSAGES names: kind, messages, bytes, most messages, most bytes.
+// To be preloaded: counts the messages that a program sends. Rank 0 writes a line for each kind of
+// message to the file that COUNT_MESSAGES names: the kind, messages and bytes in the mean over the
+// ranks, and the most messages and bytes of any rank.
 
 #include <mpi.h>
 

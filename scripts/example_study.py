@@ -87,3 +87,12 @@ def run_cases(arguments, path, columns, cases, run):
             for name, rows in table.items():
                 writer.writerows([name, *(f"{value:.8g}" for value in row)] for row in rows)
     return {label: np.array(rows) for label, rows in table.items()}
+
+
+def write_rows(rows, path):
+    """A CSV file of {case: {column: number}}."""
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["case", *next(iter(rows.values()))])
+        for name, row in rows.items():
+            writer.writerow([name, *(f"{value:.4g}" for value in row.values())])

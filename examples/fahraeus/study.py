@@ -7,7 +7,6 @@ fahraeus.png. Cases of which the folder is there already are not run again.
 
 study.py --output FOLDER [--folder runs] [--lmp ../../build/lmp_rbc] [--only d20h30-coarse]
 """
-import csv
 import subprocess
 import sys
 from pathlib import Path
@@ -158,14 +157,6 @@ def draw(cases, rows, pictures, path):
     figure.savefig(path, dpi=90)
 
 
-def write(rows, path):
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["case", *next(iter(rows.values()))])
-        for name, row in rows.items():
-            writer.writerow([name, *(f"{value:.4g}" for value in row.values())])
-
-
 def plasma(arguments, variables):
     """Force density of plasma over that of Poiseuille's law, in the same tube of atoms."""
     folder = arguments.folder / f"plasma-d{variables['diameter']}-dx{variables['dx']}"
@@ -193,7 +184,7 @@ def main():
         pictures[name] = folder / "last.png"
         subprocess.run([sys.executable, HERE.parents[1] / "scripts" / "render_cells.py", surfaces(folder)[-1][1], "-o", pictures[name],
                         "--color", "molecule", "--view", "60", "15", "--size", "640x480"], check=True)
-    write(rows, arguments.output / "fahraeus.csv")
+    example_study.write_rows(rows, arguments.output / "fahraeus.csv")
     draw(cases, rows, pictures, arguments.output / "fahraeus.png")
 
 

@@ -8,7 +8,6 @@ the table of the README.
 
 study.py --output FOLDER [--folder runs] [--lmp ../../build/lmp_rbc] [--only p100 p100-inside]
 """
-import csv
 import sys
 from pathlib import Path
 
@@ -59,14 +58,6 @@ def print_table(rows):
               f"| {row['least_area']:.1f} to {row['largest_area']:.1f} | {row['volume']:.1e} |")
 
 
-def write(rows, path):
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["case", *next(iter(rows.values()))])
-        for name, row in rows.items():
-            writer.writerow([name, *(f"{value:.4g}" for value in row.values())])
-
-
 def main():
     parser = example_study.options(__doc__, CASES)
     example_study.add_runs_folder(parser)
@@ -74,7 +65,7 @@ def main():
     folder = example_study.runs_folder(arguments)
     rows = {name: measure(folder / name) for name, variables in CASES.items()
             if example_study.run_once(arguments, HERE / "in.shear-cell", folder / name, variables)}
-    write(rows, arguments.output / "shear-cell.csv")
+    example_study.write_rows(rows, arguments.output / "shear-cell.csv")
     print_table(rows)
 
 
