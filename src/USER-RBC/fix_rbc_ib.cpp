@@ -235,6 +235,7 @@ void FixRBCIB::setup_post_neighbor()
 void FixRBCIB::post_neighbor()
 {
   markers->find_members();
+  markers->implicit().forget_directions();
   if (!masses) steps->atoms_migrated();
   if (slides_in_gaps()) gaps->atoms_migrated();
   contrast.atoms_migrated();

@@ -11,16 +11,21 @@ from test_extremes import change_of_shape, cut_edges, volume
 CAPSULE = POTENTIALS / "capsule_642.mol"
 
 
-def shear(contrast, strain, template=CAPSULE, cells="rbc/create rbc single 4 4 4", modulus=0.1, integrator="midpoint", dx=0.25, before=""):
-    """Positions [vertex, 3] at the start and the end of a run of cells about 1 in radius in shear of rate 1 around (4, 4, 4)."""
+def sheared(contrast, strain, template=CAPSULE, cells="rbc/create rbc single 4 4 4", modulus=0.1, integrator="midpoint", dx=0.25, before=""):
+    """A run of cells about 1 in radius in shear of rate 1 around (4, 4, 4)."""
     dt = 0.04
     steps = round(strain / dt)
-    dump = run(scene(
+    return run(scene(
         box="region box block 0 8 0 8 0 8", molecule=f"molecule rbc {template}", cells=cells, neighbor="neighbor 0.3 bin",
         membrane=f"fix mem all rbc/membrane rbc neo-hookean {modulus} volume yes interior {contrast}",
         fluid=f"fix flow all rbc/fluid dx {dx} viscosity 1 wall zlo -4 0 0 wall zhi 4 0 0", before=before,
         ib=f"fix ib all rbc/ib flow integrator {integrator} tol 1e-4", timestep=f"timestep {dt}", dump=dump_line(steps),
-        run=f"run {steps}")).dump()
+        run=f"run {steps}"))
+
+
+def shear(*arguments, **options):
+    """Positions [vertex, 3] at the start and the end."""
+    dump = sheared(*arguments, **options).dump()
     return dump.positions(0), dump.positions()
 
 
@@ -63,10 +68,12 @@ class Thin(unittest.TestCase):
         coarse, fine = (shear(5, 1, dx=dx, **self.cells())[1] for dx in (0.25, 0.125))
         self.assertLess(np.sqrt(((coarse - fine)**2).sum(axis=1).mean()), 0.04)
 
-    def test_stops_and_says_what_to_do(self):
-        with self.assertRaises(Failed) as stopped:
-            shear(1e4, 2, **self.cells())
-        self.assertRegex(stopped.exception.result.error, "molecule ID 1 at .*two fluid cells thick")
+    def test_says_what_to_do(self):
+        self.assertRegex(sheared(1e4, 0.08, **self.cells()).printed, "mem are 1.05 fluid spacings thick, and below 2 an "
+                         "inside that is 1e[+]04 times as viscous as the fluid is not resolved: use dx 0.131")
+        with self.assertRaises(Failed) as stopped:    # other things of such a cell go wrong, too
+            shear(10, 2, **{**self.cells(), "integrator": "euler"}, dx=0.5)
+        self.assertRegex(stopped.exception.result.error, "molecule ID 1 .*two fluid cells thick")
 
 
 class Touching(unittest.TestCase):

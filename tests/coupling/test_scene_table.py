@@ -132,6 +132,10 @@ class Warnings(unittest.TestCase):
                 ["nothing keeps the 1 cells of fix rbc/membrane mem and the 1 of fix rbc/membrane stiff from passing"]),
             "short contact": (dict(TWO, before=CONTACT.format(0.5), last=REPELLED),
                               ["repel each other from 0.5 fluid spacings on; below 1 "]),
+            "thin": (dict(membrane=SHEAR["membrane"] + " interior 15"),
+                     ["fluid spacings thick, and below 2 an inside that is 10 times as viscous as the fluid is not resolved: "
+                      "use dx 0.4"]),
+            "not too thin": (dict(membrane=SHEAR["membrane"] + " interior 7.5"), []),
             "long edges": (dict(fluid=PLATES.replace("dx 1.2", "dx 0.4"), neighbor="neighbor 0.4 bin",
                                 timestep="timestep 20"),
                            [f"mem are {mean / 0.4:.3g} fluid spacings long on average, and 0.5 to 1.7 are resolved: "

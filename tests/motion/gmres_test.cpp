@@ -8,6 +8,7 @@
 #include <random>
 
 using rbc::Gmres;
+using rbc::KeptDirections;
 using rbc::Numbers;
 
 namespace {
@@ -36,8 +37,8 @@ class Equations : public testing::Test {
 
 TEST_F(Equations, AreSolvedToTheTolerance)
 {
-  Numbers y(size, 1.0);
-  EXPECT_LE(gmres.solve(apply, motion, test::product(matrix, solution), 1e-12, y), 1e-12);
+  Numbers y(size, 1.0), r = test::product(matrix, solution);
+  EXPECT_LE(gmres.solve(apply, motion, r, 1e-12, y), 1e-12);
   for (double &value : y) value -= 1;
   EXPECT_LT(test::largest(test::difference(y, solution)), 1e-12);
   EXPECT_LE(gmres.iterations(), size);
@@ -47,9 +48,9 @@ TEST_F(Equations, AreSolvedToTheTolerance)
 TEST_F(Equations, EndAtTheLargestNumberOfIterationsWithTheResidualThere)
 {
   const Numbers r = test::product(matrix, solution);
-  Numbers y(size);
+  Numbers y(size), overwritten = r;
   gmres.max_iterations = 4;
-  const double residual = gmres.solve(apply, motion, r, 1e-12, y);
+  const double residual = gmres.solve(apply, motion, overwritten, 1e-12, y);
   EXPECT_EQ(gmres.iterations(), 4);
   const Numbers left = test::difference(r, test::product(matrix, y));
   EXPECT_NEAR(residual, std::sqrt(dot(motion, left, left)), 1e-12);
@@ -57,8 +58,8 @@ TEST_F(Equations, EndAtTheLargestNumberOfIterationsWithTheResidualThere)
 
 TEST_F(Equations, WithNothingToDoCostNothing)
 {
-  Numbers y = solution;
-  EXPECT_EQ(gmres.solve(apply, motion, Numbers(size), 0.0, y), 0);
+  Numbers y = solution, r(size);
+  EXPECT_EQ(gmres.solve(apply, motion, r, 0.0, y), 0);
   EXPECT_EQ(y, solution);
   EXPECT_EQ(motion.evaluations, 0);
 }
@@ -67,16 +68,69 @@ TEST_F(Equations, WithNothingToDoCostNothing)
 TEST_F(Equations, TakeTheMemoryOfTheIterationsMade)
 {
   gmres.max_iterations = std::numeric_limits<int>::max();
-  Numbers y(size);
-  EXPECT_LE(gmres.solve(apply, motion, test::product(matrix, solution), 1e-12, y), 1e-12);
+  Numbers y(size), r = test::product(matrix, solution);
+  EXPECT_LE(gmres.solve(apply, motion, r, 1e-12, y), 1e-12);
   EXPECT_LT(test::largest(test::difference(y, solution)), 1e-12);
   const std::size_t vectors = gmres.iterations() + 1;
   EXPECT_LE(gmres.bytes(), 2 * vectors * (size + vectors) * sizeof(double));
 
   const std::size_t before = gmres.bytes();
   y.assign(size, 0.0);
-  gmres.solve(apply, motion, test::product(matrix, solution), 1e-12, y);
+  r = test::product(matrix, solution);
+  gmres.solve(apply, motion, r, 1e-12, y);
   EXPECT_EQ(gmres.bytes(), before);
+}
+
+/// What was solved before is solved again in one iteration, as are sums of it.
+TEST_F(Equations, AreSolvedAtOnceAlongKeptDirections)
+{
+  KeptDirections kept;
+  kept.most = 2;
+  Numbers other(size, 0.3);
+  for (const Numbers &wanted : {solution, other}) {
+    Numbers y(size), r = test::product(matrix, wanted);
+    gmres.solve(apply, motion, r, 1e-12, y, &kept);
+    EXPECT_LT(test::largest(test::difference(y, wanted)), 1e-12);
+    EXPECT_GT(gmres.iterations(), 5);
+  }
+  for (int i = 0; i < size; ++i) other[i] -= 2 * solution[i];
+  Numbers y(size), r = test::product(matrix, other);
+  gmres.solve(apply, motion, r, 1e-11, y, &kept);
+  EXPECT_EQ(gmres.iterations(), 1);
+  EXPECT_LT(test::largest(test::difference(y, other)), 1e-11);
+}
+
+/// Directions whose images are wrong cost iterations, but the solution is right, and so is the
+/// residual that is returned.
+TEST_F(Equations, AreSolvedWithDirectionsOfOtherEquations)
+{
+  KeptDirections kept;
+  kept.most = 3;
+  for (int n = 0; n < 5; ++n) {
+    for (int i = 0; i < size; ++i) {
+      matrix[i][(i + n) % size] += 0.2;
+      solution[i] += 0.1 * std::sin(i * n);
+    }
+    const Numbers r = test::product(matrix, solution);
+    Numbers y(size), overwritten = r;
+    const double residual = gmres.solve(apply, motion, overwritten, 1e-3, y, &kept);
+    const Numbers left = test::difference(r, test::product(matrix, y));
+    EXPECT_LE(residual, 1e-3);
+    EXPECT_NEAR(residual, std::sqrt(dot(motion, left, left)), 1e-12);
+  }
+}
+
+TEST_F(Equations, ForgetDirections)
+{
+  KeptDirections kept;
+  kept.most = 1;
+  Numbers y(size), r = test::product(matrix, solution), again = r;
+  gmres.solve(apply, motion, r, 1e-12, y, &kept);
+  const int iterations = gmres.iterations();
+  kept.forget();
+  y.assign(size, 0.0);
+  gmres.solve(apply, motion, again, 1e-12, y, &kept);
+  EXPECT_EQ(gmres.iterations(), iterations);
 }
 
 /// As many iterations as the operator has eigenvalues.
@@ -85,8 +139,8 @@ TEST(Gmres, EndsWhereTheSolutionIsExact)
   test::GivenMotion motion = test::linear_motion({{2, 0, 0}, {0, 2, 0}, {0, 0, 5}});
   const auto apply = [&](const Numbers &p, Numbers &v) { motion.velocity(p, 0, v); };
   Gmres gmres;
-  Numbers y(3);
-  gmres.solve(apply, motion, {1, 2, 3}, 1e-13, y);
+  Numbers y(3), r{1, 2, 3};
+  gmres.solve(apply, motion, r, 1e-13, y);
   EXPECT_EQ(gmres.iterations(), 2);
   EXPECT_NEAR(y[0], 0.5, 1e-14);
   EXPECT_NEAR(y[1], 1.0, 1e-14);

@@ -121,6 +121,7 @@ void ImmersedMarkers::estimate_spectrum(bool on)
 {
   estimating_spectrum_ = on;
   surfaces_are_of_estimate_ = false;
+  implicit_.forget_directions();
 }
 
 void ImmersedMarkers::evaluate(const Numbers &x, double fraction, Stage stage, Numbers &v)

@@ -18,11 +18,15 @@ static constexpr int MOST_ROUNDS = 20;
 // Part of the tolerance that iterations reach, so that velocities found are within it when they are
 // evaluated once more at the start of a run.
 
-static constexpr double MARGIN = 0.7;
+static constexpr double MARGIN = 0.9;
 
 // error of a change of velocities in an estimate, relative to it
 
-static constexpr double ESTIMATE_ERROR = 0.02;
+static constexpr double ESTIMATE_ERROR = 0.01;
+
+// solutions that precondition the next ones
+
+static constexpr int MOST_KEPT = 4;
 
 /* ---------------------------------------------------------------------- */
 
@@ -38,6 +42,8 @@ void ImplicitVelocity::start_run(DrivenFlow *flow, const std::vector<CellMembran
   flow_ = flow;
   contrast_ = contrast;
   flow_is_behind_ = false;
+  kept_.forget();
+  kept_.most = MOST_KEPT;
   viscous_.clear();
   for (CellMembranes *cells : membranes)
     if (cells->is_viscous()) viscous_.push_back(cells);
@@ -65,6 +71,7 @@ void ImplicitVelocity::solve(EvaluationStage stage)
   double count = static_cast<double>(markers_.members().size());
   markers_.sum(&count, 1);
 
+  if (contrast_ && viscous_.empty()) markers_.constrain_volume(stage);
   markers_.load(atom->v, guess_);
   markers_.velocities_of_flow(stage);
   double length = 0;
@@ -113,15 +120,18 @@ double ImplicitVelocity::find_residual()
   return std::sqrt(dot(markers_, residual_, residual_));
 }
 
+/// Solutions of before help where only layers count. With viscous forces the equation is too stiff:
+/// where atoms have moved a little, they lead away, and there are twice the iterations.
 double ImplicitVelocity::solve_linear(double tolerance, Dependence dependence)
 {
+  const bool helps = dependence == Dependence::layers || viscous_.empty();
   correction_.assign(residual_.size(), 0.0);
   return gmres_.solve(
       [this, dependence](const Numbers &p, Numbers &result) {
         response(p, dependence, result);
         for (std::size_t i = 0; i < p.size(); ++i) result[i] += p[i];
       },
-      markers_, residual_, tolerance, correction_);
+      markers_, residual_, tolerance, correction_, helps ? &kept_ : nullptr);
 }
 
 void ImplicitVelocity::complete_change(Numbers &change)
@@ -186,5 +196,5 @@ std::size_t ImplicitVelocity::bytes() const
   std::size_t numbers = 0;
   for (const Numbers *vector : {&guess_, &forces_, &residual_, &correction_, &response_})
     numbers += vector->capacity();
-  return gmres_.bytes() + numbers * sizeof(double);
+  return gmres_.bytes() + kept_.bytes() + numbers * sizeof(double);
 }

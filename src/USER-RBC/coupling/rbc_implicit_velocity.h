@@ -27,6 +27,8 @@ class ViscosityContrast;
 /// the rounds are those of Newton's method) or there are rigid walls (which M and D leave out). A
 /// round that does not halve the error is followed by one that takes the viscosity of the present
 /// velocities as constant; such a round always lowers the error (Kacanov's method).
+/// Where only double layers count, the solutions of the evaluations before precondition the next
+/// ones. They are forgotten where atoms migrate, as they do at a restart.
 class ImplicitVelocity : protected Pointers {
  public:
   ImplicitVelocity(LAMMPS *lmp, ImmersedMarkers &markers) : Pointers(lmp), markers_(markers) {}
@@ -38,6 +40,9 @@ class ImplicitVelocity : protected Pointers {
   /// At the start of a run. `contrast` is null where all fluid has one viscosity.
   void start_run(DrivenFlow *flow, const std::vector<CellMembranes *> &membranes,
                  const ViscosityContrast *contrast);
+
+  /// Atoms have other numbers here, or other equations are to be solved.
+  void forget_directions() { kept_.forget(); }
 
   /// Whether anything depends on the velocities.
   bool acts() const { return contrast_ || !viscous_.empty(); }
@@ -78,6 +83,7 @@ class ImplicitVelocity : protected Pointers {
   const ViscosityContrast *contrast_ = nullptr;
   double tolerance_ = 1e-4;
   rbc::Gmres gmres_;
+  rbc::KeptDirections kept_;
   bigint evaluations_ = 0, iterations_ = 0, unconverged_ = 0;
   double error_ = 0;
   bool flow_is_behind_ = false;

@@ -30,6 +30,11 @@ static constexpr double SHORTEST_EDGE = 0.5, LONGEST_EDGE = 1.7;
 
 static constexpr double SHORTEST_RANGE = 1.0;
 
+// Thickness of cells in fluid spacings where the viscosity inside over that of the fluid is larger
+// than this ratio.
+
+static constexpr double LEAST_THICKNESS = 2.0, THIN_RATIO = 8.0;
+
 // Distance of cells from a plate in fluid spacings. Fluid at rest at the plate holds back what
 // repels a vertex that is nearer: it does not come off, or it comes off within a step.
 
@@ -58,6 +63,7 @@ void SceneTable::print(const DrivenFlow &flow)
   utils::logmesg(lmp, text);
   if (!warns_) return;
   warn_of_edges();
+  warn_of_insides(flow);
   warn_of_contacts();
   warn_of_plates(flow);
 }
@@ -259,6 +265,23 @@ void SceneTable::warn_of_edges() const
                    style_, kind.membranes->style().substr(1), edge, SHORTEST_EDGE, LONGEST_EDGE,
                    edge > LONGEST_EDGE ? "larger dx or a template with more"
                                        : "smaller dx or a template with fewer");
+  }
+}
+
+void SceneTable::warn_of_insides(const DrivenFlow &flow) const
+{
+  const double outside = flow.settings().equations.viscosity;
+  for (const Kind &kind : kinds_) {
+    const double thickness = kind.membranes->thickness() / spacing_;
+    if (kind.cells < 1 || thickness >= LEAST_THICKNESS || !kind.membranes->differs_inside(outside))
+      continue;
+    const double ratio = kind.membranes->interior_viscosity() / outside;
+    if (ratio <= THIN_RATIO) continue;
+    error->warning(FLERR,
+                   "{}: cells of f{} are {:.3g} fluid spacings thick, and below {} an inside that "
+                   "is {:.3g} times as viscous as the fluid is not resolved: use dx {:.3g}",
+                   style_, kind.membranes->style().substr(1), thickness, LEAST_THICKNESS, ratio,
+                   kind.membranes->thickness() / LEAST_THICKNESS);
   }
 }
 

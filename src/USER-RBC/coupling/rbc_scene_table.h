@@ -54,6 +54,7 @@ class SceneTable : protected Pointers {
   std::string table(const DrivenFlow &flow) const;
   std::string boundaries(const DrivenFlow &flow) const;
   void warn_of_edges() const;
+  void warn_of_insides(const DrivenFlow &flow) const;
   void warn_of_contacts() const;
   void warn_of_plates(const DrivenFlow &flow) const;
 };

@@ -4,8 +4,8 @@
 
 namespace rbc {
 
-double Gmres::solve(const Operator &apply, const Motion &motion, const Numbers &r, double tolerance,
-                    Numbers &y)
+double Gmres::solve(const Operator &apply, const Motion &motion, Numbers &r, double tolerance,
+                    Numbers &y, KeptDirections *kept)
 {
   const std::size_t n = r.size();
   iterations_ = 0;
@@ -19,7 +19,11 @@ double Gmres::solve(const Operator &apply, const Motion &motion, const Numbers &
   int k = 0;
   while (k < max_iterations && residual > tolerance) {
     make_room(k + 1, n);
-    apply(basis_[k], basis_[k + 1]);
+    if (kept) {
+      direction_ = basis_[k];
+      kept->precondition(motion, direction_);
+    }
+    apply(kept ? direction_ : basis_[k], basis_[k + 1]);
     const double length = orthogonalise(motion, k);
     rotate(k);
     residual = std::abs(rotated_[++k]);
@@ -27,9 +31,18 @@ double Gmres::solve(const Operator &apply, const Motion &motion, const Numbers &
   }
   iterations_ = k;
 
+  if (!kept) {
+    solve_triangle(k);
+    add_solution(k, y);
+    return residual;
+  }
+  take_off_residual(k, r);
   solve_triangle(k);
-  for (int j = 0; j < k; ++j)
-    for (std::size_t i = 0; i < n; ++i) y[i] += rotated_[j] * basis_[j][i];
+  direction_.assign(n, 0.0);
+  add_solution(k, direction_);
+  kept->precondition(motion, direction_);
+  for (std::size_t i = 0; i < n; ++i) y[i] += direction_[i];
+  kept->keep(motion, direction_, r);
   return residual;
 }
 
@@ -82,6 +95,24 @@ void Gmres::rotate(int k)
   rotated_[k] *= cosine_[k];
 }
 
+void Gmres::add_solution(int k, Numbers &y) const
+{
+  for (int j = 0; j < k; ++j)
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] += rotated_[j] * basis_[j][i];
+}
+
+/// Of the right-hand side r this leaves the image of the solution. To be called before
+/// solve_triangle().
+void Gmres::take_off_residual(int k, Numbers &r) const
+{
+  double last = rotated_[k];
+  for (int j = k; j >= 0; --j) {
+    const double entry = j > 0 ? cosine_[j - 1] * last : last;
+    for (std::size_t i = 0; i < r.size(); ++i) r[i] -= entry * basis_[j][i];
+    if (j > 0) last *= -sine_[j - 1];
+  }
+}
+
 /// Makes the first k entries of the rotated residual the weights of the basis.
 void Gmres::solve_triangle(int k)
 {
@@ -97,7 +128,7 @@ std::size_t Gmres::bytes() const
   std::size_t sum = 0;
   for (const auto *vectors : {&basis_, &hessenberg_})
     for (const Numbers &vector : *vectors) sum += vector.capacity();
-  return sum * sizeof(double);
+  return (sum + direction_.capacity()) * sizeof(double);
 }
 
 }    // namespace rbc

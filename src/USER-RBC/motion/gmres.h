@@ -1,5 +1,6 @@
 #pragma once
 
+#include "motion/kept_directions.h"
 #include "motion/motion.h"
 
 #include <functional>
@@ -16,9 +17,11 @@ class Gmres {
   int max_iterations = 100;
 
   /// Adds to y the solution for r, until the length of the residual is not above `tolerance` or
-  /// max_iterations were made. Returns that length. Two sums over ranks per iteration.
-  double solve(const Operator &apply, const Motion &motion, const Numbers &r, double tolerance,
-               Numbers &y);
+  /// max_iterations were made. Returns that length. Overwrites r. Directions `kept` of earlier
+  /// solves precondition this one from the right, which is kept, too. Two sums over ranks per
+  /// iteration, three with `kept`.
+  double solve(const Operator &apply, const Motion &motion, Numbers &r, double tolerance,
+               Numbers &y, KeptDirections *kept = nullptr);
 
   int iterations() const { return iterations_; }    ///< of the last solve
   std::size_t bytes() const;
@@ -27,12 +30,15 @@ class Gmres {
   std::vector<Numbers> basis_;
   std::vector<Numbers> hessenberg_;    ///< column k has k + 2 entries
   Numbers rotated_, cosine_, sine_;
+  Numbers direction_;    ///< where directions are kept: the one that is tried, then the solution
   int iterations_ = 0;
 
   void make_room(int k, std::size_t n);
   double orthogonalise(const Motion &motion, int k);
   void rotate(int k);
+  void take_off_residual(int k, Numbers &r) const;
   void solve_triangle(int k);
+  void add_solution(int k, Numbers &y) const;
 };
 
 }    // namespace rbc

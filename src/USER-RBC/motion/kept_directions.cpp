@@ -1,0 +1,60 @@
+#include "motion/kept_directions.h"
+
+#include <algorithm>
+
+namespace rbc {
+
+namespace {
+
+void add(Numbers &sum, double factor, const Numbers &values)
+{
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += factor * values[i];
+}
+
+}    // namespace
+
+void KeptDirections::find_overlaps(const Motion &motion, const Numbers &r)
+{
+  overlaps_.assign(count_, 0.0);
+  for (int k = 0; k < count_; ++k)
+    for (std::size_t i = 0; i < r.size(); ++i) overlaps_[k] += pairs_[k].image[i] * r[i];
+  if (count_ > 0) motion.sum(overlaps_.data(), count_);
+}
+
+void KeptDirections::precondition(const Motion &motion, Numbers &r)
+{
+  find_overlaps(motion, r);
+  for (int k = 0; k < count_; ++k) add(r, overlaps_[k], pairs_[k].change);
+}
+
+void KeptDirections::keep(const Motion &motion, Numbers &direction, Numbers &image)
+{
+  if (most == 0) return;
+  pairs_.resize(most);
+  if (count_ == most) {
+    std::rotate(pairs_.begin(), pairs_.begin() + 1, pairs_.end());
+    --count_;
+  }
+  find_overlaps(motion, image);
+  for (std::size_t i = 0; i < image.size(); ++i) direction[i] -= image[i];
+  for (int k = 0; k < count_; ++k) {
+    add(direction, -overlaps_[k], pairs_[k].change);
+    add(image, -overlaps_[k], pairs_[k].image);
+  }
+  const double length = std::sqrt(dot(motion, image, image));
+  if (!(length > 0)) return;
+  Pair &last = pairs_[count_++];
+  last.change.assign(image.size(), 0.0);
+  last.image.assign(image.size(), 0.0);
+  add(last.change, 1 / length, direction);
+  add(last.image, 1 / length, image);
+}
+
+std::size_t KeptDirections::bytes() const
+{
+  std::size_t sum = overlaps_.capacity();
+  for (const Pair &pair : pairs_) sum += pair.change.capacity() + pair.image.capacity();
+  return sum * sizeof(double);
+}
+
+}    // namespace rbc
