@@ -4,6 +4,7 @@
 #include "cells/rbc_cell_membranes.h"
 #include "cells/rbc_unheld_cells.h"
 #include "comm.h"
+#include "coupling/rbc_memory_table.h"
 #include "coupling/rbc_motion_restart.h"
 #include "coupling/rbc_wall_group.h"
 #include "error.h"
@@ -341,13 +342,14 @@ void FixRBCIB::post_run()
   const double cells = static_cast<double>(flow->flow().grid().size());
   const bigint vertices = markers->count();
   const std::string table = cost.table(solves, vertices, cells), costs = flow->costs();
+  const std::string bytes = vertices > 0 ? MemoryTable(lmp).table(vertices) : "";
   if (comm->me != 0) return;
 
   std::string text =
       fmt::format("\nUSER-RBC step cost: {} solves in {} steps, {} vertices, {:.0f} "
                   "fluid cells, {} MPI task{}\n",
                   solves, step_count, vertices, cells, comm->nprocs, comm->nprocs > 1 ? "s" : "");
-  text += table + costs;
+  text += table + costs + bytes;
   const double radius = steps->integrator().spectral_radius();
   if (radius > 0)
     text += fmt::format("Timestep times spectral radius: {:.4g}\n", steps->last_dt() * radius);

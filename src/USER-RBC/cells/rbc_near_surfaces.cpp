@@ -4,6 +4,7 @@
 #include "cells/rbc_cell_membranes.h"
 #include "contact/surface_patches.h"
 #include "domain.h"
+#include "geometry/tight_vector.h"
 #include "neighbor.h"
 #include "support/rbc_gather.h"
 #include "update.h"
@@ -161,7 +162,7 @@ void NearSurfaces::build(double range, double slack_of_ghosts, double stale)
   ++build_count;
   allowed = slack_of_ghosts / 2;
   built.hold(atom->x[0], atom->nlocal + atom->nghost);
-  cell_at.resize(atom->nlocal + atom->nghost);
+  rbc::resize_tightly(cell_at, atom->nlocal + atom->nghost);
   for (std::size_t i = 0; i < cell_at.size(); ++i) cell_at[i] = cell_of(static_cast<int>(i));
   collect_triangles(longest_known_edge(range, slack_of_ghosts + stale));
   stop->check();
@@ -199,8 +200,8 @@ void NearSurfaces::collect_triangles(double longest)
       const int j = image_near(i, cell->first + corners[1], longest);
       const int k = image_near(i, cell->first + corners[2], longest);
       if (j >= 0 && k >= 0 && are_near(j, k, longest)) {
-        triangles.push_back({{i, j, k}, cell->number});
-        triangle_places.push_back(shape.places[t]);
+        rbc::push_back_tightly(triangles, rbc::NearTriangles::Triangle{{i, j, k}, cell->number});
+        rbc::push_back_tightly(triangle_places, shape.places[t]);
         if (own_patch > 0) template_triangle.push_back(t);
       } else if (i < atom->nlocal)
         stop->report(

@@ -1,6 +1,7 @@
 #include "contact/crossing_finder.h"
 
 #include "geometry/rounding.h"
+#include "geometry/tight_vector.h"
 #include "geometry/triangle_distance.h"
 
 #include <algorithm>
@@ -267,7 +268,7 @@ void CrossingFinder::list(const double *x, double reach)
 void CrossingFinder::find_normals(const double *x)
 {
   const NumberLists &triangles = near_.fans().triangles;
-  normal_.resize(triangles.count());
+  resize_tightly(normal_, triangles.count());
   for (int fan : near_.near_owned()) {
     PlainVector sum{0, 0, 0};
     for (int n = triangles.begin[fan]; n < triangles.begin[fan + 1]; ++n)
@@ -295,7 +296,7 @@ void CrossingFinder::consider_fans(const double *x, Pair fans)
   if (listed.gap > reach_) return;
   if (!own && !scene_.tested(triangles)) return;
   if (listed.gap > 0)
-    listed_.push_back(listed);
+    push_back_tightly(listed_, listed);
   else
     split(x, fans, reach_);
 }
@@ -391,7 +392,7 @@ void CrossingFinder::consider(const double *x, Pair pair, double reach)
   if (listed.gap <= 0) try_line(listed, x, unit(line_between(places(x, first), places(x, second))));
   if (listed.gap > reach) return;
   listed.apart = listed.gap > 0;
-  listed_.push_back(listed);
+  push_back_tightly(listed_, listed);
 }
 
 /* ----------------------------------------------------------------------

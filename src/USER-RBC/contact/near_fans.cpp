@@ -1,6 +1,7 @@
 #include "contact/near_fans.h"
 
 #include "geometry/plain_vector.h"
+#include "geometry/tight_vector.h"
 
 #include <cmath>
 #include <limits>
@@ -18,9 +19,9 @@ PlainVector at(const double *x, int n)
 
 void NearFans::Spheres::resize(std::size_t size)
 {
-  for (auto *numbers : {&x, &y, &z, &radius}) numbers->resize(size + AT_ONCE);
-  for (auto *numbers : {&surface, &owned}) numbers->resize(size + AT_ONCE);
-  fan.resize(size);
+  for (auto *numbers : {&x, &y, &z, &radius}) resize_tightly(*numbers, size + AT_ONCE);
+  for (auto *numbers : {&surface, &owned}) resize_tightly(*numbers, size + AT_ONCE);
+  resize_tightly(fan, size);
 }
 
 void NearFans::build(const std::vector<NearTriangles::Triangle> &triangles,
@@ -103,7 +104,7 @@ void NearFans::sort(const SpatialBins &bins)
 {
   const std::size_t count = near_owned_.size();
   bin_begin_.assign(bins.count() + 1, 0);
-  bin_of_.resize(count);
+  resize_tightly(bin_of_, count);
   for (std::size_t n = 0; n < count; ++n) {
     bin_of_[n] = bins.of(at(centre_.data(), near_owned_[n]));
     ++bin_begin_[bin_of_[n] + 1];

@@ -5,6 +5,7 @@
 #include "geometry/rounding.h"
 #include "geometry/signed_distance.h"
 #include "geometry/spatial_bins.h"
+#include "geometry/tight_vector.h"
 #include "geometry/vector_loop.h"
 
 #include <algorithm>
@@ -42,9 +43,9 @@ double square(double s)
 
 void NearTriangles::Spheres::resize(std::size_t size)
 {
-  for (auto *numbers : {&x, &y, &z, &radius}) numbers->resize(size + LANES);
-  surface.resize(size + LANES);
-  triangle.resize(size);
+  for (auto *numbers : {&x, &y, &z, &radius}) resize_tightly(*numbers, size + LANES);
+  resize_tightly(surface, size + LANES);
+  resize_tightly(triangle, size);
 }
 
 void NearTriangles::Spheres::set(int n, const Sphere &sphere, Surface s, int t)
@@ -121,7 +122,7 @@ void NearTriangles::sort_spheres(const double *x, const SpatialBins &bins)
 {
   const std::size_t count = triangles_->size();
   bin_begin_.assign(bins.count() + 1, 0);
-  bin_of_.resize(count);
+  resize_tightly(bin_of_, count);
   for (std::size_t t = 0; t < count; ++t) {
     bin_of_[t] = bins.of(sphere_around(x, (*triangles_)[t]).centre);
     ++bin_begin_[bin_of_[t] + 1];
@@ -252,10 +253,10 @@ void NearTriangles::add_candidates(const double *x, int point)
   for (std::size_t n = 0; n < found_.size(); ++n) {
     const int place = static_cast<int>(candidates_.size());
     if (n == 0 || found_[n].surface != found_[n - 1].surface)
-      groups_.push_back({point, place, 0, place, 0});
+      push_back_tightly(groups_, Group{point, place, 0, place, 0});
     groups_.back().end = place + 1;
-    candidates_.push_back(
-        {rounded_down(found_[n].distance), (*triangles_)[found_[n].triangle].corner});
+    push_back_tightly(candidates_, Candidate{rounded_down(found_[n].distance),
+                                             (*triangles_)[found_[n].triangle].corner});
   }
 }
 
@@ -265,7 +266,7 @@ void NearTriangles::find_spokes(int corners)
   for (const Triangle &triangle : *triangles_)
     for (int v : triangle.corner) ++spokes_begin_[v + 1];
   for (int v = 0; v < corners; ++v) spokes_begin_[v + 1] += spokes_begin_[v];
-  spokes_.resize(spokes_begin_[corners]);
+  resize_tightly(spokes_, spokes_begin_[corners]);
   next_.assign(spokes_begin_.begin(), spokes_begin_.end() - 1);
   for (const Triangle &triangle : *triangles_)
     for (int c = 0; c < 3; ++c)
@@ -295,7 +296,7 @@ void NearTriangles::find_nearest(const double *x, double range)
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const Group &group = groups_[g];
     if (candidates_[group.begin].distance <= range + motion_.around(group.point))
-      near_groups_.push_back(static_cast<int>(g));
+      push_back_tightly(near_groups_, static_cast<int>(g));
   }
   visit_distances(
       x, static_cast<int>(near_groups_.size()),
@@ -310,7 +311,7 @@ void NearTriangles::find_nearest(const double *x, double range)
     const Group &group = groups_[g];
     const double far = std::min(range, std::sqrt(group.distance2)) + motion_.around(group.point);
     for (int n = group.begin; n < group.end && !(candidates_[n].distance > far); ++n)
-      if (n != group.nearest) others_.push_back({g, n});
+      if (n != group.nearest) push_back_tightly(others_, {g, n});
   }
   visit_distances(
       x, static_cast<int>(others_.size()),
@@ -350,7 +351,8 @@ void NearTriangles::add_contact(const double *x, const Group &group)
     const PlainVector out = outward(x, corner, weight, face);
     return (1 / norm(out)) * out;
   };
-  contacts_.push_back({group.point, corner, weight, direction(), inside ? -distance : distance});
+  push_back_tightly(contacts_, VertexContact{group.point, corner, weight, direction(),
+                                             inside ? -distance : distance});
 }
 
 /* ----------------------------------------------------------------------

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace rbc {
+
+// Vectors that grow double their room, and then half of it may stay empty for good. These leave a
+// sixteenth empty, for lists whose sizes change little.
+
+template <typename Value> void reserve_tightly(std::vector<Value> &values, std::size_t size)
+{
+  if (size > values.capacity()) values.reserve(size + size / 16);
+}
+
+template <typename Value> void resize_tightly(std::vector<Value> &values, std::size_t size)
+{
+  reserve_tightly(values, size);
+  values.resize(size);
+}
+
+template <typename Value> void push_back_tightly(std::vector<Value> &values, const Value &value)
+{
+  constexpr std::size_t least = 64;
+  if (values.size() == values.capacity())
+    values.reserve(least + values.size() + values.size() / 16);
+  values.push_back(value);
+}
+
+}    // namespace rbc
