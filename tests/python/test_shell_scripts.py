@@ -52,7 +52,7 @@ class Machine(unittest.TestCase):
         return done.stdout
 
     def test_without_a_home(self):
-        for script in ("build.sh", "lammps.sh", "test.sh"):
+        for script in ("build.sh", "html.sh", "lammps.sh", "test.sh"):
             self.assertIn(f"{script}: HOME is not set: set USER_RBC_CACHE",
                           self.fails(script, USER_RBC_CACHE=""))
 
