@@ -1,4 +1,4 @@
-"""Settings of Sphinx, which scripts/html.sh runs over the top folder, so that READMEs are pages too."""
+"""Settings of Sphinx, which scripts/html.sh runs over the top folder: READMEs are pages, too."""
 import sys
 from pathlib import Path
 
@@ -9,11 +9,12 @@ project = "USER-RBC"
 author = "USER-RBC developers"
 project_copyright = author
 
-extensions = ["myst_parser", "sphinx.ext.mathjax", "rbc_pages"]
+extensions = ["myst_parser", "sphinx.ext.mathjax", "sphinx.ext.autosectionlabel", "rbc_pages"]
 root_doc = "doc/index"
-include_patterns = ["README.md", "CONTRIBUTING.md", "doc/*.rst", "bench/README.md", "potentials/README.md",
-                    "examples/*/README.md"]
+include_patterns = ["README.md", "CONTRIBUTING.md", "doc/*.rst", "bench/README.md",
+                    "potentials/README.md", "examples/*/README.md"]
 exclude_patterns = ["build*", ".git", "src", "tests", "fluid", "cmake", "scripts"]
+autosectionlabel_prefix_document = True
 myst_heading_anchors = 4
 highlight_language = "none"
 

@@ -1,7 +1,7 @@
-"""What Sphinx does not know: LAMMPS's pages and input scripts, and folders that stand for their README.
+"""What Sphinx does not know: LAMMPS's pages and input scripts, folders that stand for their README.
 
-When all is written, every link to a page, a place in it, a picture or a file is looked up; one that leads nowhere
-is a warning.
+When all is written, every link to a page, a place in it, a picture or a file is looked up; one that
+leads nowhere is a warning.
 """
 import os
 import re
@@ -19,10 +19,11 @@ from sphinx.util.nodes import make_refnode
 LAMMPS = "https://docs.lammps.org"
 MATHJAX = Path("/usr/share/javascript/mathjax")
 # of MathJax, what TeX-AMS_CHTML loads
-MATHJAX_PARTS = ("MathJax.js", "config/TeX-AMS_CHTML.js", "extensions", "jax/element", "jax/input/TeX",
-                 "jax/output/CommonHTML", "fonts/HTML-CSS/TeX/woff")
+MATHJAX_PARTS = ("MathJax.js", "config/TeX-AMS_CHTML.js", "extensions", "jax/element",
+                 "jax/input/TeX", "jax/output/CommonHTML", "fonts/HTML-CSS/TeX/woff")
 # folders whose files pages name in `code`
-NAMED = re.compile(r"(?:\.\./)*(?:bench|cmake|doc|examples|fluid|potentials|scripts|src|tests)/[\w./-]+")
+NAMED = re.compile(r"(?:\.\./)*(?:bench|cmake|doc|examples|fluid|potentials|scripts|src|tests)/"
+                   r"[\w./-]+")
 IMPLIED = ("tests", "src/USER-RBC")    # what CONTRIBUTING.md leaves out of paths
 
 logger = logging.getLogger(__name__)
@@ -103,18 +104,20 @@ def dead_links(folder):
                 continue
             target = (path.parent / unquote(parts.path)).resolve() if parts.path else path
             place = unquote(parts.fragment)
-            if not target.is_file() or place and target in pages and place not in pages[target].places:
+            if not target.is_file() or (
+                    place and target in pages and place not in pages[target].places):
                 yield path.relative_to(folder), link
 
 
 def missing_files(app):
-    """(page, name) of files of the repository that a page names in `code` and that are not there."""
+    """(page, name) of files of the repository that a page names in `code` and that do not exist."""
     top = Path(app.srcdir)
     for name in sorted(app.env.all_docs):
         folders = ((top / name).parent, top, *(top / folder for folder in IMPLIED))
         for literal in app.env.get_doctree(name).findall(nodes.literal):
             for word in literal.astext().split():
-                if NAMED.fullmatch(word) and not any((folder / word).exists() for folder in folders):
+                if NAMED.fullmatch(word) and not any(
+                        (folder / word).exists() for folder in folders):
                     yield name, word
 
 
