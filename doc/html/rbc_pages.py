@@ -14,7 +14,6 @@ from docutils import nodes
 from pygments.lexer import RegexLexer, bygroups
 from pygments.token import Comment, Keyword, Name, Number, Operator, String, Text
 from sphinx.util import logging
-from sphinx.util.nodes import make_refnode
 
 LAMMPS = "https://docs.lammps.org"
 MATHJAX = Path("/usr/share/javascript/mathjax")
@@ -66,17 +65,25 @@ def lammps_pages():
     return {path.stem for path in folder.glob("*.rst")} if folder.is_dir() else None
 
 
-def resolve(app, env, node, text):
-    """Links that Sphinx finds no page for: LAMMPS's pages, and folders with a README."""
+def name_readmes(app, name, source):
+    """Links of a README to a folder lead to the README in it."""
+    here = Path(app.env.doc2path(name)).parent
+
+    def link(match):
+        return f"]({match[1]}/README.md)" if (here / match[1] / "README.md").is_file() else match[0]
+
+    if Path(app.env.doc2path(name)).suffix == ".md":
+        source[0] = re.sub(r"\]\(([\w./-]+)\)", link, source[0])
+
+
+def link_to_lammps(app, env, node, text):
+    """Where Sphinx finds no page for :doc: it is one of LAMMPS's."""
     target = node["reftarget"]
-    if node.get("refdomain") == "std" and node["reftype"] == "doc" and re.fullmatch(r"\w+", target):
-        if app.rbc_lammps_pages is None or target in app.rbc_lammps_pages:
-            return nodes.reference("", "", text, internal=False, refuri=f"{LAMMPS}/{target}.html")
-    if node["reftype"] == "any":
-        page = os.path.normpath(os.path.join(os.path.dirname(node["refdoc"]), target, "README"))
-        if page in env.all_docs:
-            return make_refnode(app.builder, node["refdoc"], page, "", text)
-    return None
+    if node["reftype"] != "doc" or not re.fullmatch(r"\w+", target):
+        return None
+    if app.rbc_lammps_pages is not None and target not in app.rbc_lammps_pages:
+        return None
+    return nodes.reference("", "", text, internal=False, refuri=f"{LAMMPS}/{target}.html")
 
 
 class Page(HTMLParser):
@@ -147,6 +154,7 @@ def finish(app, error):
 def setup(app):
     app.add_lexer("LAMMPS", LammpsLexer)
     app.connect("builder-inited", begin)
-    app.connect("missing-reference", resolve)
+    app.connect("source-read", name_readmes)
+    app.connect("missing-reference", link_to_lammps)
     app.connect("build-finished", finish)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -15,7 +15,7 @@ PAGE = """A page
    fix ID all rbc/ib flow
 
 :doc:`of LAMMPS <fix_ave_time>` and :doc:`not of LAMMPS <fix_ave_tune>`,
-:ref:`nowhere <nowhere>`, :math:`x`, ``potentials/there.mol``, ``potentials/missing.mol``
+:ref:`a label <gone>`, :math:`x`, ``potentials/there.mol``, ``potentials/missing.mol``
 
 .. image:: missing.png
 
@@ -26,10 +26,9 @@ README = """# Another page
 [page](doc/index.rst), [place](doc/index.rst#nowhere), [file](doc/there.csv),
 [missing](missing.csv), [folder](examples/scene), [no folder](examples/none)
 """
-# what is warned of, as Sphinx names it
-MISTAKES = ("fix_ave_tune", "'nowhere'", "readable: doc/missing.png", "missing.csv",
-            "examples/none", "doc/index.rst#nowhere", "link to other.html#place",
-            "link to doc/missing.png", "names potentials/missing.mol")
+# what warnings name
+MISTAKES = ("fix_ave_tune", "'gone'", "doc/missing.png", "missing.csv", "examples/none", "nowhere",
+            "other.html#place", "potentials/missing.mol")
 
 
 class Pages(unittest.TestCase):
@@ -75,8 +74,9 @@ class Pages(unittest.TestCase):
         warnings = [line for line in done.stderr.splitlines()
                     if "WARNING" in line and "any toctree" not in line]
         for mistake in MISTAKES:
-            self.assertEqual(sum(mistake in line for line in warnings), 1, (mistake, done.stderr))
-        self.assertEqual(len(warnings), len(MISTAKES), done.stderr)
+            self.assertTrue(any(mistake in line for line in warnings), (mistake, done.stderr))
+        for line in warnings:
+            self.assertTrue(any(mistake in line for mistake in MISTAKES), line)
 
 
 if __name__ == "__main__":
