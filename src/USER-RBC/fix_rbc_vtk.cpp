@@ -9,6 +9,7 @@
 #include "irregular.h"
 #include "membrane/membrane_tension.h"
 #include "modify.h"
+#include "output/pvd_file.h"
 #include "output/vtp_writer.h"
 #include "support/rbc_arguments.h"
 #include "update.h"
@@ -188,6 +189,7 @@ void FixRBCVTK::write(ComputeRBCAggregate *grouping, const std::string &context)
         names[rank] = platform::path_basename(piece(rank));
       rbc::write_pvtp(name, time, data, names);
     }
+    if (comm->me == 0) rbc::add_to_pvd(rbc::pvd_name(file), time, platform::path_basename(name));
   } catch (const std::runtime_error &problem) {
     error->one(FLERR, "Fix rbc/vtk {}: {}{}", id, problem.what(), context);
   }

@@ -1,7 +1,9 @@
 """fix rbc/vtk: the surfaces as VTK reads them, on 1, 2 and 4 ranks, and what bad input gets."""
 
+import shutil
 import unittest
 from pathlib import Path
+from xml.etree import ElementTree
 
 import lammps_case
 import numpy as np
@@ -193,7 +195,7 @@ run         0
             result = run_moving("fix out all rbc/vtk 2 cells.*.vtp", ranks=ranks)
             dump = result.dump()
             self.assertEqual(dump.steps, [0, 2, 4])
-            self.assertEqual(len(list(result.folder.glob("cells.*"))), 3)
+            self.assertEqual(len(list(result.folder.glob("cells.*vtp"))), 3)
             for frame, step in enumerate(dump.steps):
                 with self.subTest(ranks=ranks, step=step):
                     cells = Surfaces(result.path(f"cells.{step}.vtp"))
@@ -319,7 +321,7 @@ shell rm cells.4.vtp
 run 1
 run 3 pre no
 """, ranks=2)
-        found = sorted(path.name for path in result.folder.glob("cells.*"))
+        found = sorted(path.name for path in result.folder.glob("cells.*vtp"))
         self.assertEqual(found, ["cells.0.vtp", "cells.2.vtp", "cells.6.vtp", "cells.8.vtp"])
         self.assertAlmostEqual(Surfaces(result.path("cells.8.vtp")).time, 0.8, delta=1e-12)
 
@@ -327,6 +329,26 @@ run 3 pre no
         result = lammps_case.attempt(script)
         self.assertNotEqual(result.code, 0, result.printed)
         self.assertRegex(result.error, message)
+
+    def test_list_of_the_series(self):
+        def entries(result):
+            root = ElementTree.parse(result.path("cells.pvd")).getroot()
+            self.assertEqual(root.attrib["type"], "Collection")
+            return [(float(entry.attrib["timestep"]), entry.attrib["file"]) for entry in root.iter("DataSet")]
+
+        def moved(steps, script, prepare=None):
+            return lammps_case.run(f"{script}fix out all rbc/vtk 2 cells.*.pvtp\ntimestep 0.5\nrun {steps}\n"
+                                   "write_restart last.restart\n", 2, prepare=prepare)
+
+        def keep(folder):
+            shutil.copy(first.path("last.restart"), folder)
+            of_another = '    <DataSet timestep="3" group="" part="0" file="of-another-run.pvtp"/>\n  </Collection>'
+            (folder / "cells.pvd").write_text(first.path("cells.pvd").read_text().replace("  </Collection>", of_another))
+
+        first = moved(4, BOX + "rbc/create rbc single 6 6 6\n" + MEMBRANE)
+        self.assertEqual(entries(first), [(0, "cells.0.pvtp"), (1, "cells.2.pvtp"), (2, "cells.4.pvtp")])
+        again = moved(2, f"read_restart last.restart\nmolecule rbc {SHAPE}\n" + MEMBRANE, keep)
+        self.assertEqual(entries(again), [*entries(first), (3, "cells.6.pvtp")])
 
     def test_bad_arguments(self):
         for arguments, message in (
