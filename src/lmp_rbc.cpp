@@ -1,12 +1,15 @@
-// LAMMPS with this package. LAMMPS loads the plugins in the folders of LAMMPS_PLUGIN_PATH at its start and after each
-// `clear`; the folder of this executable, where the plugin is, joins them.
+// LAMMPS with this package. LAMMPS loads the plugins in the folders of LAMMPS_PLUGIN_PATH at its
+// start and after each `clear`; the folder of this executable, where the plugin is, joins them.
 
 #include "exceptions.h"
 #include "input.h"
 #include "lammps.h"
+#include "lammpsplugin.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <dlfcn.h>
 #include <filesystem>
 #include <mpi.h>
 #include <new>
@@ -16,13 +19,42 @@ using namespace LAMMPS_NS;
 
 namespace {
 
+std::string own_folder()
+{
+  return std::filesystem::canonical("/proc/self/exe").parent_path();
+}
+
 void add_plugin_folder()
 {
-  const std::string folder = std::filesystem::canonical("/proc/self/exe").parent_path();
+  const std::string folder = own_folder();
   const char *const given = std::getenv("LAMMPS_PLUGIN_PATH");
   if (given && (":" + std::string(given) + ":").find(":" + folder + ":") != std::string::npos)
     return;
   setenv("LAMMPS_PLUGIN_PATH", given ? (folder + ":" + given).c_str() : folder.c_str(), 1);
+}
+
+bool asks_for_help(int argc, char **argv)
+{
+  return std::any_of(argv + 1, argv + argc,
+                     [](const std::string &word) { return word == "-h" || word == "-help"; });
+}
+
+void print_style(lammpsplugin_t *style, void *)
+{
+  std::printf("  %-8s %s\n", style->style, style->name);
+}
+
+// LAMMPS's own help lists its styles before it loads plugins, and then ends the program.
+
+void print_styles()
+{
+  void *const plugin = dlopen((own_folder() + "/rbcplugin.so").c_str(), RTLD_NOW);
+  if (!plugin) return;
+  const auto init = reinterpret_cast<lammpsplugin_initfunc>(dlsym(plugin, "lammpsplugin_init"));
+  std::printf("Styles of USER-RBC:\n");
+  if (init) init(nullptr, plugin, reinterpret_cast<void *>(print_style));
+  std::printf("\nHelp of LAMMPS:\n");
+  std::fflush(stdout);
 }
 
 }    // namespace
@@ -31,6 +63,9 @@ int main(int argc, char **argv)
 {
   add_plugin_folder();
   MPI_Init(&argc, &argv);
+  int me;
+  MPI_Comm_rank(MPI_COMM_WORLD, &me);
+  if (me == 0 && asks_for_help(argc, argv)) print_styles();
   try {
     LAMMPS lammps(argc, argv, MPI_COMM_WORLD);
     lammps.input->file();

@@ -39,6 +39,13 @@ class Products(unittest.TestCase):
             self.assertEqual(styles_in_headers() - styles, set())
         self.assertNotIn("plugin:", printed)
 
+    def test_help_lists_the_styles(self):
+        run = subprocess.run([os.environ["LMP_RBC"], "-h"], capture_output=True, text=True, check=True)
+        listed = re.findall(r"^  (\w+) +(\S+)$", run.stdout.split("Help of LAMMPS")[0], re.MULTILINE)
+        self.assertEqual({(kind.capitalize(), name) for kind, name in listed}, styles_in_headers())
+        self.assertEqual(len(listed), len(set(listed)))
+        self.assertIn("List of command-line options", run.stdout)
+
     def test_plugin_adds_exactly_the_package(self):
         load = f"plugin load {os.environ['RBC_PLUGIN']}\ninfo styles all\n"
         found, _ = listings(os.environ["LMP"], "info styles all\n" + load + "clear\n" + load)
