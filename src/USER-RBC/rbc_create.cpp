@@ -1,20 +1,18 @@
 #include "rbc_create.h"
 
 #include "atom.h"
+#include "cells/rbc_cell_places.h"
 #include "cells/rbc_cell_template.h"
 #include "cells/rbc_region_enclosure.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "math_const.h"
 #include "packing/cell_packing.h"
 #include "random_park.h"
 #include "region.h"
 #include "support/rbc_arguments.h"
 #include "support/rbc_gather.h"
 #include "support/rbc_new_atoms.h"
-
-#include <Eigen/Geometry>
 
 using namespace LAMMPS_NS;
 using rbc::Vec3;
@@ -33,7 +31,9 @@ void RBCCreate::command(int narg, char **arg)
   const double begin = platform::walltime();
   std::vector<Cell> cells;
   if (single)
-    cells.push_back(place_single());
+    cells.push_back(place(centre, rotation, "single"));
+  else if (!file.empty())
+    cells = place_all();
   else
     cells = pack();
   create_atoms(cells);
@@ -54,7 +54,7 @@ void RBCCreate::parse(int narg, char **arg)
   bool placement = false, seeded = false;
   Arguments args(lmp, "rbc/create", narg, arg, 1);
   const auto place = [&] {
-    if (placement) args.fail("Rbc/create takes only one of single, number and hematocrit");
+    if (placement) args.fail("Rbc/create takes only one of single, file, number and hematocrit");
     placement = true;
   };
   args.read({{"single",
@@ -64,6 +64,11 @@ void RBCCreate::parse(int narg, char **arg)
                 for (int d = 0; d < 3; ++d) centre[d] = args.number();
               }},
              {"rotate", [&] { read_rotation(args); }},
+             {"file",
+              [&] {
+                place();
+                file = args.text();
+              }},
              {"number",
               [&] {
                 place();
@@ -85,14 +90,18 @@ void RBCCreate::parse(int narg, char **arg)
              {"overlap", [&] { gap = args.positive(); }},
              {"attempts", [&] { attempts = args.whole(1, MAXSMALLINT); }},
              {"velocity", [&] { speed = args.not_negative(); }}});
-  if (!placement) error->all(FLERR, "Rbc/create needs one of single, number and hematocrit");
-  if (!single && !seeded) error->all(FLERR, "Rbc/create number and hematocrit need a seed");
-  if (single && region) error->all(FLERR, "Rbc/create single takes no region");
-  if (single && kinds.size() > 1) error->all(FLERR, "Rbc/create single takes no mix");
+  if (!placement) error->all(FLERR, "Rbc/create needs one of single, file, number and hematocrit");
+  const bool given = single || !file.empty();
+  const std::string word = single ? "single" : "file";
+  if (!given && !seeded) error->all(FLERR, "Rbc/create number and hematocrit need a seed");
+  if (given && region) error->all(FLERR, "Rbc/create {} takes no region", word);
+  if (given && kinds.size() > 1) error->all(FLERR, "Rbc/create {} takes no mix", word);
   if (single && speed > 0) error->all(FLERR, "Rbc/create single takes no velocity");
+  if (!file.empty() && speed > 0 && !seeded)
+    error->all(FLERR, "Rbc/create file with velocity needs a seed");
   if (gap < 0) gap = kinds[0].shape->mean_edge / 10;
   check_images();
-  if (single) return;
+  if (given) return;
   set_extent();
   set_counts();
 }
@@ -106,7 +115,7 @@ void RBCCreate::read_rotation(Arguments &args)
   Vec3 axis;
   for (int d = 0; d < 3; ++d) axis[d] = args.number();
   if (axis.norm() == 0) args.fail("Rbc/create rotate axis must not be 0 0 0");
-  rotation = Eigen::AngleAxisd(angle * MathConst::DEG2RAD, axis.normalized()).toRotationMatrix();
+  rotation = rotation_about(angle, axis);
 }
 
 void RBCCreate::read_region(Arguments &args)
@@ -232,27 +241,38 @@ double RBCCreate::region_volume() const
 
 /* ---------------------------------------------------------------------- */
 
-RBCCreate::Cell RBCCreate::place_single() const
+RBCCreate::Cell RBCCreate::place(const Vec3 &at, const Eigen::Matrix3d &turned,
+                                 const std::string &what) const
 {
-  Cell cell{&kinds[0], centre, rotation};
+  Cell cell{&kinds[0], at, turned};
   const double *lower = domain->boxlo, *upper = domain->boxhi;
   for (int v = 0; v < kinds[0].shape->vertex_count(); ++v) {
     const Vec3 vertex = cell.vertex(v);
     for (int d = 0; d < 3; ++d) {
       if (!domain->periodicity[d] && (vertex[d] <= lower[d] || vertex[d] >= upper[d]))
         error->all(FLERR,
-                   "Rbc/create single: a vertex at {} {:.6g} lies outside the simulation box, "
+                   "Rbc/create {}: a vertex at {} {:.6g} lies outside the simulation box, "
                    "{:.6g} to {:.6g}",
-                   "xyz"[d], vertex[d], lower[d], upper[d]);
+                   what, "xyz"[d], vertex[d], lower[d], upper[d]);
       const double boxes = std::floor((vertex[d] - lower[d]) / domain->prd[d]);
       if (boxes < -IMGMAX || boxes >= IMGMAX)
         error->all(FLERR,
-                   "Rbc/create single: a vertex at {} {:.6g} lies {:.6g} boxes away; image flags "
+                   "Rbc/create {}: a vertex at {} {:.6g} lies {:.6g} boxes away; image flags "
                    "of the periodic box go from {} to {}",
-                   "xyz"[d], vertex[d], boxes, -IMGMAX, IMGMAX - 1);
+                   what, "xyz"[d], vertex[d], boxes, -IMGMAX, IMGMAX - 1);
     }
   }
   return cell;
+}
+
+std::vector<RBCCreate::Cell> RBCCreate::place_all()
+{
+  std::vector<Cell> cells;
+  for (const CellPlace &at : read_cell_places(lmp, file, "Rbc/create file"))
+    cells.push_back(
+        place(at.origin, at.rotation, fmt::format("file: line {} of {}", at.line, file)));
+  kinds[0].count = static_cast<int>(cells.size());
+  return cells;
 }
 
 std::vector<Vec3> RBCCreate::existing_atoms() const

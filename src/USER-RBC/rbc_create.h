@@ -42,6 +42,7 @@ class RBCCreate : public Command {
   bool single = false;
   rbc::Vec3 centre = rbc::Vec3::Zero();
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  std::string file;    // of places, empty without
   int wanted = 0;
   double hematocrit = 0;
   class Region *region = nullptr;
@@ -56,7 +57,8 @@ class RBCCreate : public Command {
   void read_rotation(class Arguments &);
   void read_region(Arguments &);
   void read_mix(Arguments &);
-  Cell place_single() const;
+  Cell place(const rbc::Vec3 &, const Eigen::Matrix3d &, const std::string &what) const;
+  std::vector<Cell> place_all();
   std::vector<Cell> pack();
   std::vector<rbc::Vec3> existing_atoms() const;
   void check_images() const;

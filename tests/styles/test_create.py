@@ -95,6 +95,22 @@ class Single(unittest.TestCase):
         np.testing.assert_array_equal(dump("mass"), 3.5)
 
 
+class FromFile(unittest.TestCase):
+    def test_is_one_command_for_each_line(self):
+        places = ["5 6 7.5", "15 12 10 40 1 -2 0.5", "25 23.9 10 90 0 1 0"]
+        singly = created("\n".join("rbc/create rbc single " + " rotate ".join([" ".join(place.split()[:3]),
+                                                                                *filter(None, [" ".join(place.split()[3:])])])
+                                    for place in places)).dump()
+        lines = ["# x y z theta nx ny nz", places[0], "", places[1] + "   # tilted", places[2]]
+        for ranks in (1, 2):
+            script = scene(box="region box block 0 30 0 24 0 20", cells="rbc/create rbc file cells.txt", membrane=None, fluid=None,
+                           ib=None, thermo=None, dump=dump_line(1, columns=COLUMNS))
+            result = run(script, ranks, files={"cells.txt": "\n".join(lines) + "\n"})
+            for column in COLUMNS.split():
+                np.testing.assert_array_equal(result.dump()(column), singly(column), err_msg=f"{column}, {ranks} ranks")
+            self.assertIn("Created 3 cells of 162 vertices", result.printed)
+
+
 class TypeLabels(unittest.TestCase):
     def test_name_types_as_in_create_atoms(self):
         labels = "labelmap atom 1 soft 2 wall 3 stiff\nmass soft 1.0\n"
