@@ -12,7 +12,6 @@ Writes suspension.csv and suspension.png to FOLDER, where the runs are, too, wit
 --only names cases: a10, a60, a100 adhesive, r10, r60, r100 repulsive.
 """
 import csv
-import re
 import shutil
 import subprocess
 import sys
@@ -25,11 +24,9 @@ import matplotlib  # noqa: E402
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
-from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader  # noqa: E402
 import example_study  # noqa: E402
-from plot_aggregates import COLORS, mean_classes  # noqa: E402
-from read_ave_time import read_ave_time  # noqa: E402
+from blood_runs import box, history, is_finished, measures, run_piece, said  # noqa: E402
+from plot_aggregates import COLORS  # noqa: E402
 from snapshots import surfaces  # noqa: E402
 from surface_distances import pair_distances  # noqa: E402
 from surface_gaps import read_cells  # noqa: E402
@@ -42,49 +39,9 @@ WORDS = {"a": "adhesive", "r": "repulsive"}
 NAMES = [f"{kind}{rate}" for kind in KINDS for rate in RATES]
 OPTIONS = ("cells", "shape", "volume", "dx", "kernel", "courant",
            "seconds")                        # of this script that the input takes
-SECONDS = "core_seconds.txt"                 # in the folder of a run
 SETTLED = 10                                 # strain from which means are taken
 REACH = 0.6                                  # gaps that count, um
 PICTURES = 4                                 # of each run in which gaps are looked for
-
-
-def log_table(path):
-    """Columns by name of the table in a LAMMPS log; a line cut short at the end is left out."""
-    lines = path.read_text(encoding="utf-8").splitlines()
-    start = next(n for n, line in enumerate(lines) if line.split()[:1] == ["Step"])
-    names = lines[start].split()
-    rows = []
-    for line in lines[start + 1:]:
-        if not re.fullmatch(r"[-+.\deE\s]+", line) or len(line.split()) != len(names):
-            break
-        rows.append(line.split())
-    return dict(zip(names, np.array(rows, dtype=float).T))
-
-
-def logs(folder):
-    """Of the pieces of a run."""
-    return sorted(folder.glob("log.lammps*"))
-
-
-def history(folder):
-    """Tables of the logs of all pieces, one after the other; the first step of a piece is the last
-    of the one before."""
-    first, *others = [log_table(log) for log in logs(folder)]
-    for table in others:
-        table["f_ib[8]"] += first["f_ib[8]"][-1]    # counted from the start of each piece
-        first = {name: np.concatenate([first[name], table[name][1:]]) for name in first}
-    return first
-
-
-def is_finished(folder):
-    """Whether the last piece of the run went to its end."""
-    return logs(folder) and "Wall time limit reached" not in logs(folder)[-1].read_text()
-
-
-def box(log):
-    """Lengths of the box of a LAMMPS log."""
-    corner = re.search(r"^Created orthogonal box = \(0 0 0\) to \((.*)\)", log, re.MULTILINE)[1]
-    return np.array(corner.split(), float)
 
 
 def gaps(folder, lengths):
@@ -96,50 +53,13 @@ def gaps(folder, lengths):
             for n in chosen]
 
 
-def aggregate_sizes(path):
-    """Cells in each aggregate of a file of surfaces."""
-    reader = vtkXMLPolyDataReader()
-    reader.SetFileName(str(path))
-    reader.Update()
-    of_point = reader.GetOutput().GetPointData()
-    cells = np.unique([vtk_to_numpy(of_point.GetArray(name)) for name in ("molecule", "aggregate")], axis=1)
-    return np.unique(cells[1], return_counts=True)[1]
-
-
-def aggregate_statistics(folder, cells, table, start):
-    """Sizes of aggregates from a strain of `start` on."""
-    strain, steps = table["v_sheared"], table["Step"]
-    late = strain >= start
-    classes = mean_classes(folder / "classes.dat", steps[late][0])
-    shares = classes.fractions(False)
-    sizes = np.concatenate([aggregate_sizes(name) for step, name in surfaces(folder)
-                            if np.interp(step, steps, strain) >= start])
-    return {
-        "classes": classes,
-        "median": np.median(sizes[sizes > 1]) if (sizes > 1).any() else np.nan,
-        "of_cells": np.median(np.repeat(sizes, sizes)),
-        "of_2_or_3": shares[classes.edges == 2].sum(),
-        "of_4_to_7": shares[classes.edges == 4].sum(),
-        "mean": cells / table["c_agg[1]"][late].mean(), "largest": table["c_agg[4]"][late].mean(),
-        "singles": classes.aggregates[0] / cells}
-
-
 def measure(folder):
-    log = (folder / "log.lammps").read_text(encoding="utf-8")
-    cells = int(re.search(r"^Created (\d+) cells", log, re.MULTILINE)[1])
-    table, volumes = history(folder), read_ave_time(folder / "cell.dat").column(6)
-    strain = table["v_sheared"]
-    start = min(SETTLED, strain[-1] / 2)
-    pairs = gaps(folder, box(log))
+    table, pairs = history(folder), gaps(folder, box(folder))
     return {
-        "cells": cells, "strain": strain[-1], "hematocrit": table["v_filled"].min(),
-        "core_seconds": float((folder / SECONDS).read_text(encoding="utf-8")),
-        "again": table["f_ib[8]"][-1], "viscosity": table["v_relative"][strain >= start].mean(),
-        **aggregate_statistics(folder, cells, table, start),
-        "lost": cells - volumes.shape[1], "volume": abs(volumes / volumes[0] - 1).max(),
+        **measures(folder, SETTLED),
         "pictures": len(pairs), "least": min(p.min() for p in pairs),
         "cut": sum(int((p == 0).sum()) for p in pairs),
-        "pairs": np.concatenate(pairs), "history": (strain, table["v_relative"]),
+        "pairs": np.concatenate(pairs), "history": (table["v_sheared"], table["v_relative"]),
     }
 
 
@@ -193,25 +113,13 @@ def made_templates(folder):
 
 
 def run_case(arguments, name, folder):
-    """Runs in.suspension, or its next piece, in a folder, which keeps the seconds of processors
-    that all pieces took."""
-    folder.mkdir(parents=True, exist_ok=True)
-    pieces = len(logs(folder))
-    before = example_study.processor_seconds()
+    """Runs in.suspension, or its next piece, in a folder."""
     variables = {"rate": name[1:], "sigma": KINDS[name[0]],
-                 **{name: getattr(arguments, name) for name in OPTIONS},
-                 "pieces": pieces}
+                 **{name: getattr(arguments, name) for name in OPTIONS}}
     templates = Path(example_study.POTENTIALS)
     if not (templates / f"{arguments.shape}.mol").exists():
         templates = made_templates(folder.parent)
-    done = example_study.run_script(arguments, HERE / "in.suspension", folder, variables, templates,
-                                    log=f"log.lammps.{pieces + 1}" if pieces else "log.lammps")
-    seconds = example_study.processor_seconds() - before
-    if pieces:
-        seconds += float((folder / SECONDS).read_text(encoding="utf-8"))
-    (folder / SECONDS).write_text(f"{seconds:.1f}\n", encoding="utf-8")
-    said = re.findall(r"^(?:ERROR|WARNING).*", done.stdout, re.MULTILINE)
-    print(name, *said, sep="\n", flush=True)
+    print(name, *said(run_piece(arguments, folder, variables, templates)), sep="\n", flush=True)
 
 
 def draw_cells(folder):
