@@ -97,11 +97,12 @@ def draw_curves(cases, paper, path):
                            label="aggregate of a cell, median over cells")
     axes["medians"].loglog(rates, [case["median"] for case in cases.values()], "s--",
                            label="aggregates of two and more")
-    axes["medians"].set(xlabel="shear rate (1/s)", ylabel="median size (cells)",
-                        ylim=(1, 2 * max(case["of_cells"] for case in cases.values())))
-    axes["medians"].set_xticks(rates, list(cases))
-    axes["medians"].set_xticks([], minor=True)
-    axes["medians"].yaxis.set_major_formatter("{x:g}")
+    largest = max(case["of_cells"] for case in cases.values())
+    sizes = 2 ** np.arange(int(np.log2(largest)) + 2)
+    axes["medians"].set(xlabel="shear rate (1/s)", ylabel="median size (cells)", ylim=(1, sizes[-1]))
+    for axis, places in ((axes["medians"].xaxis, rates), (axes["medians"].yaxis, sizes)):
+        axis.set_ticks([], minor=True)
+        axis.set_ticks(places, [f"{place:g}" for place in places])
     axes["medians"].legend(frameon=False, fontsize=8)
     for place, rate in (("fast", max(cases, key=float)), ("slow", min(cases, key=float))):
         axes[place].plot(*cases[rate]["paths"], lw=1)

@@ -181,7 +181,7 @@ def options():
     parser.add_argument("--hematocrit", type=float, default=0.45)
     parser.add_argument("--piece", type=int, default=1800, help="seconds that a piece may take")
     parser.add_argument("--frames", type=int, default=100,
-                        help="steps between surfaces: 1.3 GB each of 49152 cells")
+                        help="steps between surfaces: 1 GB each of 49152 cells")
     parser.add_argument("--draw", action="store_true", help="only look at the runs that are there")
     return parser
 

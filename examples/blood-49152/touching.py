@@ -23,7 +23,7 @@ from snapshots import surfaces  # noqa: E402
 from surface_cells import ids, read_surfaces  # noqa: E402
 
 REACHES = "300", "400", "500", "600", "700"      # nm, as in in.touching
-SHARES = "1", "2", "5", "10"                     # % of the surface
+SHARES = "1", "2", "5", "7", "10"                # % of the surface
 
 
 def write_dump(files, lengths, path):
