@@ -34,7 +34,8 @@ class History(NamedTuple):
 def read_ave_time(path):
     """Read a `fix ave/time ... mode vector file` output; a block cut short at the end is left out.
 
-    Files that were appended to are read as one; the number of rows must not change.
+    Files that were appended to are read as one: a step that ends one run and begins the next counts
+    once. The number of rows must not change.
     """
     with open(path, encoding="utf-8") as stream:
         lines = stream.read().rpartition("\n")[0].splitlines()
@@ -54,7 +55,9 @@ def read_ave_time(path):
     table = values[:, 2:].reshape(blocks, rows, columns + 1)
     if np.any(values[:, 1] != rows) or np.any(table[:, :, 0] != np.arange(1, rows + 1)):
         raise ValueError(f"{path}: the number of rows changes")
-    return History(values[:, 0].astype(int), table[:, :, 1:], names)
+    steps = values[:, 0].astype(int)
+    last = np.append(steps[1:] != steps[:-1], True)
+    return History(steps[last], table[last, :, 1:], names)
 
 
 def read_table(path):

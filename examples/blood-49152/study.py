@@ -28,6 +28,7 @@ RATES = "10", "60", "100"                 # 1/s
 SAMPLED = 6                               # cells whose paths are written
 SETTLED = 10                              # strain from which means are taken
 REACH = 0.6                               # gaps that count, um
+EVEN = 0.3                                # strain between points of a path that count
 VERTICES = 162                            # of a cell
 DIAMETER = 8.0                            # of the paper, um
 
@@ -86,17 +87,18 @@ def gaps(folder):
     return pair_distances(read_cells(str(cut_out)), blood_runs.box(folder), [False] * 3, REACH)
 
 
-def turns(paths):
-    """Of all cells together: how often heights begin to rise or to fall."""
-    rises = np.sign(np.diff(paths, axis=0))
-    return int((rises[1:] != rises[:-1]).sum())
+def turns(strains, heights):
+    """Of all cells together: how often heights begin to rise or to fall, at strains EVEN apart. At
+    low rates more points are written."""
+    even = np.arange(strains[0], strains[-1], EVEN)
+    rises = [np.sign(np.diff(np.interp(even, strains, height))) for height in heights.T]
+    return sum(int((rise[1:] != rise[:-1]).sum()) for rise in rises)
 
 
 def paths(folder):
     """Times in s and heights in um of the sampled cells, a column for each."""
     table, rows = blood_runs.history(folder), read_ave_time(folder / "cell.dat")
-    steps, first = np.unique(rows.steps, return_index=True)
-    return np.interp(steps, table["Step"], table["Time"]) * 1e-6, rows.column(4)[first]
+    return np.interp(rows.steps, table["Step"], table["Time"]) * 1e-6, rows.column(4)
 
 
 def share_of(classes, sizes):
@@ -109,11 +111,11 @@ def measure(folder):
     """Of a run, by name: a row of blood.csv and what is drawn."""
     found, near = blood_runs.measures(folder, SETTLED), gaps(folder)
     times, heights = paths(folder)
+    turned = turns(times * float(folder.name), heights) / heights.shape[1]
     return {**found, "of_64_to_127": share_of(found["classes"], (64, 128)),
             "least_gap": near.min(initial=REACH), "cut": int((near == 0).sum()),
             "median_gap": np.median(near) if len(near) else np.nan,
-            "turns_per_s": turns(heights) / times[-1] / heights.shape[1],
-            "turns_per_strain": turns(heights) / found["strain"] / heights.shape[1],
+            "turns_per_s": turned / times[-1], "turns_per_strain": turned / found["strain"],
             "paths": (times, heights / DIAMETER)}
 
 

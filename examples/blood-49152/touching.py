@@ -87,7 +87,7 @@ def print_table(table):
         each = [table[f"{reach} {share}"] for share in SHARES]
         print(f"| {float(reach) / 1000:g} | " + " | ".join(
             f"{100 * one['singles']:.0f} %, {one['largest']:.0f}, {100 * one['of_2_to_3']:.0f} %, "
-            f"{100 * one['of_64_to_127']:.0f} %" for one in each) + " |")
+            f"{100 * one['of_64_to_127']:.2g} %" for one in each) + " |")
 
 
 def draw(table, path):
