@@ -24,7 +24,7 @@ from surface_cells import read_cell_ids, read_surfaces  # noqa: E402
 
 EXAMPLE = ROOT / "examples" / "blood-49152"
 CELLS = 12
-SMALL = f"--cells {CELLS} --gap 12 --strain 0.8 --frames 10 --only 100".split()
+SMALL = f"--cells {CELLS} --gap 12 --strain 2 --frames 20 --only 100".split()
 REACH, SHARE = "500", "5"        # nm and % that in.suspension counts with
 
 
@@ -54,7 +54,7 @@ class Small(unittest.TestCase):
     def test_blood_as_asked_for(self):
         blood = rows(self.folder / "blood.csv")["100"]
         self.assertEqual(blood["cells"], CELLS)
-        self.assertAlmostEqual(blood["strain"], 0.8, delta=0.3)    # lines of ten steps
+        self.assertAlmostEqual(blood["strain"], 2, delta=0.3)    # lines of ten steps
         box = np.prod(blood_runs.box(self.run_folder))
         filled = CELLS * polyhedron("rbc_162")[1] / box
         self.assertAlmostEqual(blood["hematocrit"], filled, delta=1e-4 * filled)
@@ -91,7 +91,7 @@ class Small(unittest.TestCase):
         self.assertEqual(cells.data.shape[1:], (6, 19))
         np.testing.assert_array_equal(cells.column(1)[0], STUDY.sampled(CELLS))
         times, heights = STUDY.paths(self.run_folder)
-        self.assertAlmostEqual(times[-1] * 100, 0.8, delta=0.3)    # ten steps between two points
+        self.assertAlmostEqual(times[-1] * 100, 2, delta=0.3)    # ten steps between two points
         self.assertTrue(((heights > 0) & (heights < 12)).all())
 
     def test_pictures_are_there_and_cut_outs_hold_whole_cells(self):
