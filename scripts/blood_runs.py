@@ -16,6 +16,7 @@ from surface_cells import read_cell_ids
 SCRIPT = Path(example_study.TOP) / "examples" / "suspension" / "in.suspension"
 SECONDS = "core_seconds.txt"        # in the folder of a run
 KEPT = "kept"                       # in it, data files as the last whole piece left them
+RESTART, NEXT = "last.restart", "next.restart"    # what a piece reads, what it leaves
 LIMIT = "Wall time limit reached"   # in the log of a piece that is not the last
 ENDED = "Total wall time"           # in the log of a piece that was not killed
 
@@ -59,6 +60,16 @@ def is_finished(folder):
     return ENDED in last_log(folder) and LIMIT not in last_log(folder)
 
 
+def keep_whole_piece(folder):
+    """What the last piece left is what the next begins with."""
+    if ENDED not in last_log(folder):
+        return
+    if (folder / NEXT).exists():
+        (folder / NEXT).replace(folder / RESTART)
+    for path in folder.glob("*.dat"):
+        shutil.copy(path, folder / KEPT)
+
+
 def drop_killed_piece(folder):
     """Data files as they were before a piece that did not come to its end, which leaves no log."""
     if not logs(folder) or ENDED in last_log(folder):
@@ -74,19 +85,18 @@ def run_piece(arguments, folder, variables, templates=example_study.POTENTIALS):
     """Runs in.suspension, or its next piece, in a folder, which keeps the seconds of processors
     that all pieces took. Returns what subprocess.run does."""
     (folder / KEPT).mkdir(parents=True, exist_ok=True)
+    keep_whole_piece(folder)
     drop_killed_piece(folder)
     pieces = len(logs(folder))
     before = example_study.processor_seconds()
     log = f"log.lammps.{pieces + 1}" if pieces else "log.lammps"
-    done = example_study.run_script(arguments, SCRIPT, folder, {**variables, "pieces": pieces},
-                                    templates, log)
+    variables = {**variables, "pieces": pieces, "left": NEXT}
+    done = example_study.run_script(arguments, SCRIPT, folder, variables, templates, log)
     seconds = example_study.processor_seconds() - before
     if pieces:
         seconds += core_seconds(folder)
     (folder / SECONDS).write_text(f"{seconds:.1f}\n", encoding="utf-8")
-    if ENDED in last_log(folder):
-        for path in folder.glob("*.dat"):
-            shutil.copy(path, folder / KEPT)
+    keep_whole_piece(folder)
     return done
 
 
