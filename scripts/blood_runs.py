@@ -23,15 +23,8 @@ ENDED = "Total wall time"           # in the log of a piece that was not killed
 
 def log_table(path):
     """Columns by name of the table in a LAMMPS log; a line cut short at the end is left out."""
-    lines = path.read_text(encoding="utf-8").splitlines()
-    start = next(n for n, line in enumerate(lines) if line.split()[:1] == ["Step"])
-    names = lines[start].split()
-    rows = []
-    for line in lines[start + 1:]:
-        if not re.fullmatch(r"[-+.\deE\s]+", line) or len(line.split()) != len(names):
-            break
-        rows.append(line.split())
-    return dict(zip(names, np.array(rows, dtype=float).T))
+    names, rows = thermo_log.tables(path.read_text(encoding="utf-8"))[0]
+    return dict(zip(names, rows.T))
 
 
 def logs(folder):

@@ -21,6 +21,7 @@ import numpy as np  # noqa: E402
 from example_study import options, run_cases, run_script  # noqa: E402
 from membrane_motion import read_dump, revolutions  # noqa: E402
 from read_ave_time import read_ave_time, read_csv  # noqa: E402
+from richardson import extrapolate  # noqa: E402
 
 REFERENCES = os.path.join(HERE, "..", "reference")
 REFERENCE = os.path.join(REFERENCES, "02j_capsule_shear_BEM_contrast_transient.csv")
@@ -182,8 +183,7 @@ def extrapolated(table, series, inside, time):
     """D and inclination at dx -> 0, by the two finest as of second order, in an infinite box."""
     coarse, fine = spacings(table, series, inside)[-2:]
     values = [at(table, label(series, inside, cells), time) for cells in (coarse, fine)]
-    limit = values[1] + (values[1] - values[0]) * coarse**2 / (fine**2 - coarse**2)
-    return limit + box_change(table, series, inside, time)
+    return extrapolate(1 / fine, values[1], 1 / coarse, values[0], 2) + box_change(table, series, inside, time)
 
 
 def exact_at(inside, time, law="neo-Hookean"):

@@ -24,6 +24,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 import example_study  # noqa: E402
 from blood_study import COLUMNS, measure_viscosity  # noqa: E402
+from richardson import extrapolate  # noqa: E402
 from study import KINDS, WORDS, made_templates  # noqa: E402
 
 KERNELS = "roma3", "peskin4"
@@ -83,7 +84,7 @@ def limit(runs):
     of ORDER in dx; NaN where there are not two of them."""
     points = sorted((dx, viscosity) for (_, dx), (viscosity, _) in runs[KERNELS[0]].items())
     (fine, value), (coarse, other) = points[:2] if len(points) > 1 else [(1, np.nan), (2, np.nan)]
-    return value - (other - value) / ((coarse / fine)**ORDER - 1)
+    return extrapolate(fine, value, coarse, other, ORDER)
 
 
 def entry(run, exact):

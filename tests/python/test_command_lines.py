@@ -26,7 +26,8 @@ REQUIRED = {"cell_statistics.py": "cells --box 0 1 0 1 0 1", "make_vessel.py": "
             "compare_builds.py": "before now", "kernels.py": "1.json",
             "membrane.py": "membrane.json", "make_template.py": "sphere -f 2",
             "settling-sphere/draw.py": "run", "shear-cell/draw.py": "run",
-            "throat/draw.py": "straight throat", "touching.py": "--run x"}
+            "throat/draw.py": "straight throat", "touching.py": "--run x",
+            "scripts/converge.py": "in.scene --vary dx=2,1 --measure pe"}
 
 
 def attempt(script, *words, python=(), **environment):

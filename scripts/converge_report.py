@@ -1,0 +1,227 @@
+"""What converge.py prints, writes and draws of its runs."""
+import csv
+import itertools
+from typing import NamedTuple
+
+import command_line    # noqa: F401  before matplotlib, which may be missing
+import matplotlib
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+import richardson  # noqa: E402
+
+
+class Error(NamedTuple):
+    """Of a setting, in the unit of the measure."""
+    offset: float    # value less the limit of all that is varied; of series the root mean square
+    bound: float     # what is said of its size
+
+
+class Analysis:
+    """Of one measure: values and noise by setting, and a fit for each that is varied, by its place,
+    with the settings that are in it."""
+
+    def __init__(self, measure, changes, runs, values, noise, fits):
+        self.measure, self.changes, self.fits = measure, changes, fits
+        self.values, self.noise = values, noise
+        self.seconds = {run.setting: run.seconds for run in runs}
+        self.finest = tuple(len(one.values) - 1 for one in changes)
+        base = values[self.finest]
+        self.limit = base + sum((fit.limit - base for _, fit in fits.values()), 0 * base)
+        self.scale = float(richardson.size(base))
+
+    def part(self, i, n):
+        """The error that setting n of what is varied makes: offset (m,), and what the fit adds to
+        its size; None where there is no fit or the run failed."""
+        line, fit = self.fits.get(i, ((), None))
+        names = [setting[i] for setting in line]
+        if n not in names:
+            return None
+        at = names.index(n)
+        offset = self.values[line[at]] - fit.limit
+        return offset, fit.bounds[at] - richardson.size(offset), fit.bounds[at]
+
+    def of(self, setting, offset):
+        """The Error of a setting, run or not, whose value is that far from the limit of all."""
+        parts = [self.part(i, n) for i, n in enumerate(setting)]
+        if None in parts:
+            return Error(signed(offset), np.inf)
+        return Error(signed(offset), float(richardson.size(offset) + sum(part[1] for part in parts)))
+
+    def error(self, setting):
+        return self.of(setting, self.values[setting] - self.limit)
+
+    def predicted(self):
+        """{setting: (Error, seconds)} of combinations that were not run: errors add, shares of the
+        run time multiply."""
+        base, found = self.seconds[self.finest], {}
+        for setting in itertools.product(*(range(n + 1) for n in self.finest)):
+            parts = [self.part(i, n) for i, n in enumerate(setting)]
+            if setting in self.values or None in parts:
+                continue
+            alone = [self.finest[:i] + (n,) + self.finest[i + 1:] for i, n in enumerate(setting)]
+            seconds = base * np.prod([self.seconds[one] / base for one in alone])
+            found[setting] = self.of(setting, sum(part[0] for part in parts)), seconds
+        return found
+
+    def tolerance(self, within):
+        number, relative = within
+        return number * self.scale if relative else number
+
+    def dominant(self, setting):
+        """Title of what contributes most to the error of a setting."""
+        parts = [self.part(i, n) for i, n in enumerate(setting)]
+        bounds = [np.inf if part is None else part[2] for part in parts]
+        return self.changes[int(np.argmax(bounds))].title
+
+
+def signed(offset):
+    return float(offset[0] if len(offset) == 1 else richardson.size(offset))
+
+
+def words(changes, setting):
+    return " ".join(f"{one.title}={one.word(n)}" for one, n in zip(changes, setting))
+
+
+def percent(number, scale):
+    """A number as share of the scale, or by itself where that is zero."""
+    return f"{100 * number / scale:.3g} %" if scale > 0 else f"{number:.3g}"
+
+
+def order_line(one, fit):
+    """A sentence on the order that was found."""
+    between = " ({:.2f} to {:.2f} with its noise)".format(*fit.between) if fit.between else ""
+    if fit.why:
+        return f"{one.title}: order unknown, {fit.why}{between}"
+    if np.isnan(fit.observed):
+        return f"{one.title}: order {fit.order:g} as given"
+    text = f"{one.title}: order {fit.observed:.2f}{between}"
+    return text if fit.order == fit.observed else f"{text}; errors are estimated with {fit.order:g}"
+
+
+def value_of(analysis, setting):
+    """The value with its noise; of a series its root mean square."""
+    value, noise = analysis.values[setting], analysis.noise[setting]
+    text = f"{value[0] if len(value) == 1 else richardson.size(value):.6g}"
+    return f"{text} +- {noise:.2g}" if noise else text
+
+
+def print_analysis(analysis, take):
+    scale = analysis.scale
+    kind = {"last": "at the end", "mean": "mean", "series": "over time, root mean square"}[take]
+    print(f"\n{analysis.measure} ({kind})")
+    rows = [("setting", "value", "from limit", "error below", "core s")]
+    for setting in analysis.values:
+        error = analysis.error(setting)
+        rows.append((words(analysis.changes, setting), value_of(analysis, setting),
+                     percent(error.offset, scale), percent(error.bound, scale),
+                     f"{analysis.seconds[setting]:.3g}"))
+    widths = [max(map(len, column)) for column in zip(*rows)]
+    for first, *rest in rows:
+        print("  ".join([first.ljust(widths[0]), *(text.rjust(width)
+                                                   for text, width in zip(rest, widths[1:]))]))
+    for i, (_, fit) in analysis.fits.items():
+        print(order_line(analysis.changes[i], fit))
+    for i, one in enumerate(analysis.changes):
+        if i not in analysis.fits:
+            print(f"{one.title}: one setting ran to its end, nothing is known of its error")
+    limit = analysis.limit
+    bound = analysis.error(analysis.finest).bound
+    if len(limit) == 1:
+        print(f"limit {limit[0]:.6g}, from the finest value {value_of(analysis, analysis.finest)} "
+              f"with an error below {bound:.2g}")
+    warn_of_costs(analysis)
+
+
+def warn_of_costs(analysis):
+    """A list from fine to coarse would give nonsense: then what is taken as finer costs less."""
+    for i, (line, _) in analysis.fits.items():
+        seconds = [analysis.seconds[setting] for setting in sorted(line)]
+        if len(seconds) > 1 and seconds[-1] < 0.5 * seconds[0]:
+            print(f"WARNING: {analysis.changes[i].title}: the finest setting took less time than the "
+                  "coarsest; values are listed from coarse to fine")
+
+
+def cheapest(analyses, candidates, within):
+    """(seconds, setting) of the cheapest of candidates, {setting: ([Error], seconds)}, with all
+    measures below the error asked for; None if there is none."""
+    good = [(seconds, setting) for setting, (errors, seconds) in candidates.items()
+            if all(error.bound <= analysis.tolerance(within)
+                   for error, analysis in zip(errors, analyses))]
+    return min(good, default=None)
+
+
+def print_choice(analyses, within, asked):
+    first = analyses[0]
+    run = {setting: ([one.error(setting) for one in analyses], first.seconds[setting])
+           for setting in first.values}
+    best = cheapest(analyses, run, within)
+    print(f"\ncheapest run with an error below {asked}: " + (
+        f"{words(first.changes, best[1])}, {best[0]:.3g} core s" if best else "none"))
+    parts = [one.predicted() for one in analyses]
+    guess = {setting: ([part[setting][0] for part in parts], parts[0][setting][1])
+             for setting in parts[0] if all(setting in part for part in parts)}
+    better = cheapest(analyses, guess, within)
+    if better and (best is None or better[0] < best[0]):
+        print(f"not run (--grid does), if errors add: {words(first.changes, better[1])}, about "
+              f"{better[0]:.3g} core s")
+    if len(first.changes) > 1:
+        at = best[1] if best else first.finest
+        for one in analyses:
+            print(f"most of the error bound of {one.measure} at {words(first.changes, at)}: "
+                  f"{one.dominant(at)}")
+
+
+def write_table(analyses, path):
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["measure", *(one.title for one in analyses[0].changes), "value", "noise",
+                         "from_limit", "error_below", "scale", "core_seconds"])
+        for one in analyses:
+            for setting, value in one.values.items():
+                error = one.error(setting)
+                numbers = (value[0] if len(value) == 1 else richardson.size(value),
+                           one.noise[setting], *error, one.scale, one.seconds[setting])
+                writer.writerow([one.measure, *(change.word(n) for change, n in
+                                                zip(one.changes, setting)),
+                                 *(f"{number:.8g}" for number in numbers)])
+
+
+def draw(analyses, arguments, path):
+    """Error against core seconds, a panel for each measure."""
+    figure, panels = plt.subplots(1, len(analyses), figsize=(5.6 * len(analyses), 4.4),
+                                  layout="constrained", squeeze=False)
+    for one, panel in zip(analyses, panels[0]):
+        unit = 100 / one.scale if one.scale > 0 else 1
+        for n, (i, (line, _)) in enumerate(one.fits.items()):
+            line = sorted(line)
+            seconds = [one.seconds[setting] for setting in line]
+            errors = [one.error(setting) for setting in line]
+            panel.plot(seconds, [unit * error.bound for error in errors], "o-", color=f"C{n}",
+                       label=f"{one.changes[i].title}, error below")
+            panel.plot(seconds, [unit * abs(error.offset) for error in errors], "o:", mfc="none",
+                       color=f"C{n}", label=f"{one.changes[i].title}, from the limit")
+            for setting, second, error in zip(line, seconds, errors):
+                panel.annotate(one.changes[i].word(setting[i]), (second, unit * error.bound),
+                               xytext=(4, 4), textcoords="offset points", fontsize=7)
+        rest = [setting for setting in one.values
+                if not any(setting in line for line, _ in one.fits.values())]
+        panel.plot([one.seconds[setting] for setting in rest],
+                   [unit * one.error(setting).bound for setting in rest], ".", color="0.5",
+                   label="other combinations" if rest else None)
+        if arguments.within:
+            panel.axhline(unit * one.tolerance(arguments.within), color="0.6", lw=1)
+        panel.set(title=one.measure, xscale="log", yscale="log", xlabel="core seconds",
+                  ylabel="error (%)" if one.scale > 0 else "error")
+        panel.legend(frameon=False, fontsize=8)
+    figure.savefig(path, dpi=110)
+
+
+def report(analyses, arguments):
+    for one in analyses:
+        print_analysis(one, arguments.take)
+    if arguments.within:
+        number, relative = arguments.within
+        print_choice(analyses, arguments.within, f"{100 * number:g} %" if relative else f"{number:g}")
+    write_table(analyses, arguments.output / "converge.csv")
+    draw(analyses, arguments, arguments.output / "converge.png")
