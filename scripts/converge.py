@@ -90,7 +90,8 @@ def varied(text):
     for value in values:
         if len(value) != len(names):
             raise argparse.ArgumentTypeError(
-                f"{text} names {len(names)} variables, but {':'.join(value)} has {len(value)} values")
+                f"{text} names {len(names)} variables, but {':'.join(value)} has {len(value)} "
+                "values")
     return names, values
 
 
@@ -217,7 +218,8 @@ def settings(changes, grid):
     finest = tuple(len(one.values) - 1 for one in changes)
     if grid:
         return list(itertools.product(*(range(n + 1) for n in finest)))
-    alone = [finest[:i] + (n,) + finest[i + 1:] for i, last in enumerate(finest) for n in range(last)]
+    alone = [finest[:i] + (n,) + finest[i + 1:]
+             for i, last in enumerate(finest) for n in range(last)]
     return [*alone, finest]
 
 
@@ -265,7 +267,7 @@ def run(arguments, script, changes, setting):
     tables = thermo_log.tables(text)
     columns = 2 + len(arguments.measure)
     if not tables or tables[-1][0][-columns:][:2] != ["Step", "Time"]:
-        print(f"failed\nits output {folder / 'screen.txt'} has no table that ends with the measures")
+        print(f"failed\n{folder / 'screen.txt'} has no table that ends with the measures")
         return Run(setting, None, np.nan)
     print(f"{seconds:.3g} core s")
     return Run(setting, tables[-1][1][:, -columns:], seconds)
@@ -291,7 +293,7 @@ def fitted(runs, changes, column, arguments):
 
 
 def drop_failed_finest(changes, runs):
-    """With one --vary only: without its finest settings that failed, so that the rest has limits."""
+    """With one --vary only: without its finest settings that failed: the rest has a limit."""
     if len(changes) > 1 or runs[-1].table is not None:
         return changes
     last = max((run.setting[0] for run in runs if run.table is not None), default=0) + 1

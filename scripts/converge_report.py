@@ -46,7 +46,8 @@ class Analysis:
         parts = [self.part(i, n) for i, n in enumerate(setting)]
         if None in parts:
             return Error(signed(offset), np.inf)
-        return Error(signed(offset), float(richardson.size(offset) + sum(part[1] for part in parts)))
+        more = sum(part[1] for part in parts)
+        return Error(signed(offset), float(richardson.size(offset) + more))
 
     def error(self, setting):
         return self.of(setting, self.values[setting] - self.limit)
@@ -138,8 +139,8 @@ def warn_of_costs(analysis):
     for i, (line, _) in analysis.fits.items():
         seconds = [analysis.seconds[setting] for setting in sorted(line)]
         if len(seconds) > 1 and seconds[-1] < 0.5 * seconds[0]:
-            print(f"WARNING: {analysis.changes[i].title}: the finest setting took less time than the "
-                  "coarsest; values are listed from coarse to fine")
+            print(f"WARNING: {analysis.changes[i].title}: the finest setting took less time than "
+                  "the coarsest; values are listed from coarse to fine")
 
 
 def cheapest(analyses, candidates, within):
@@ -222,6 +223,7 @@ def report(analyses, arguments):
         print_analysis(one, arguments.take)
     if arguments.within:
         number, relative = arguments.within
-        print_choice(analyses, arguments.within, f"{100 * number:g} %" if relative else f"{number:g}")
+        asked = f"{100 * number:g} %" if relative else f"{number:g}"
+        print_choice(analyses, arguments.within, asked)
     write_table(analyses, arguments.output / "converge.csv")
     draw(analyses, arguments, arguments.output / "converge.png")

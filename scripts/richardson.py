@@ -18,7 +18,7 @@ LEAST, HIGHEST = 0.5, 2.0            # orders that an error is estimated with, i
 ORDERS = np.arange(0.05, 8.0, 0.01)  # that are tried
 DRAWS = 400                          # of the noise
 SURE = 0.95                          # share of the draws that must show an order
-WIDEST = 1.0                         # range of two thirds of the orders drawn that still is an order
+WIDEST = 1.0                         # range of two thirds of the orders drawn, at most
 FLAT = 1e-9                          # relative range that is round-off
 
 
@@ -26,7 +26,7 @@ class Fit(NamedTuple):
     """Of n settings, finest first, and values of m numbers."""
     order: float         # that errors are estimated with; NaN: none was found
     observed: float      # of the best fit; NaN where there is none
-    between: tuple       # two thirds of the orders that the noise allows lie there; () without noise
+    between: tuple       # two thirds of the orders that the noise allows; () without noise
     limit: np.ndarray    # (m,) that of the fit, or the finest value where no order was found
     offsets: np.ndarray  # (n,) root mean square of value - limit; with its sign where m is 1
     bounds: np.ndarray   # (n,) errors of the values, with safety factor and noise
@@ -150,7 +150,7 @@ def without_order(h, weights, values, noise, observed, between, why):
 
 
 def with_order(h, weights, values, noise, observed, between, given):
-    """Errors are the distance from the limit of the fit, with a factor, the scatter and the noise."""
+    """Errors are distances from the limit of the fit, with a factor, and scatter and noise."""
     used = given if np.isnan(observed) else min(observed, given or HIGHEST)
     sure, scatter = False, 0.0
     if len(h) > 2:
@@ -165,7 +165,7 @@ def with_order(h, weights, values, noise, observed, between, given):
     others = [] if used == observed else pairs
     if len(h) > 2:
         others = [*others, mixed_limit(h, weights, values)]
-    missed = max([abs(offsets[0]), *(size(values[0] - other) for other in others)]) - abs(offsets[0])
+    missed = max([0.0, *(size(values[0] - other) - abs(offsets[0]) for other in others)])
     factor = CONFIDENT if sure else CAUTIOUS
     blur = 2 * np.hypot(noise, noise[0] * (1 + 1 / ((h[1] / h[0])**used - 1)))
     return Fit(used, observed, between, limit, offsets,

@@ -1,4 +1,4 @@
-"""What is compared of a measure over the time of a run: its end, its mean with noise, or all of it."""
+"""What is compared of a measure: its end, its mean with noise, or all of it over time."""
 import numpy as np
 
 BLOCKS = 5, 10, 20      # numbers of blocks for errors of means; the largest error counts

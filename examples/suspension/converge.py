@@ -25,19 +25,16 @@ import numpy as np  # noqa: E402
 import example_study  # noqa: E402
 from blood_study import COLUMNS, measure_viscosity  # noqa: E402
 from richardson import extrapolate  # noqa: E402
-from study import KINDS, WORDS, made_templates  # noqa: E402
+from study import KINDS, SMALL_BOX, VOLUMES, WORDS, made_templates  # noqa: E402
 
 KERNELS = "roma3", "peskin4"
 SCENES = "r100", "r10", "a100", "a10", "r60", "a60"
 COARSE = ("rbc_162", 0.8), ("rbc_162", 0.65), ("rbc_362", 0.65), ("rbc_642", 0.5)    # dx in um
 FINE = ("rbc_1442", 0.35), ("rbc_2562", 0.25)             # with the first kernel only
-VOLUMES = {"rbc_162": 89.30, "rbc_362": 91.90, "rbc_642": 92.84, "rbc_1442": 93.52,
-           "rbc_2562": 93.75}                             # of cells as meshed, um^3
 ORDER = 2                                                 # of errors in dx, at least
 SEEDS = 4712, 4713, 4714, 4715
 SEEDED = "r100", "roma3", "rbc_162", 0.8
 COLUMNS_OF_PANELS = 3
-SMALL_BOX = {"cells": 32, "gap": 15, "strain": 5, "frames": 1000000}
 
 
 def label(scene, kernel, shape, dx):

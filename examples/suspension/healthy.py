@@ -19,8 +19,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 import example_study  # noqa: E402
 from blood_study import COLUMNS, measure_viscosity  # noqa: E402
-from converge import SMALL_BOX, VOLUMES  # noqa: E402
 from read_ave_time import read_csv  # noqa: E402
+from study import SMALL_BOX, VOLUMES  # noqa: E402
 
 REFERENCE = HERE.parent / "reference" / "07c_blood_viscosity_wells_merrill1962.csv"
 PLASMA = 1.2                         # of the measurements, at 37 C, mPa s

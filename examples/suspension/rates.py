@@ -23,9 +23,9 @@ import matplotlib.ticker  # noqa: E402
 import numpy as np  # noqa: E402
 import example_study  # noqa: E402
 from blood_study import mean_viscosity, run_blood, settled  # noqa: E402
-from converge import SMALL_BOX, VOLUMES  # noqa: E402
 from healthy import KINDS, PLASMA, REFERENCE, WORDS, measured  # noqa: E402
 from read_ave_time import read_csv  # noqa: E402
+from study import SMALL_BOX, VOLUMES  # noqa: E402
 
 COLUMNS = "viscosity", "before", "core_seconds"
 GRID = {"shape": "rbc_162", "volume": VOLUMES["rbc_162"], "dx": 0.65}

@@ -42,6 +42,9 @@ OPTIONS = ("cells", "shape", "volume", "dx", "kernel", "courant",
 SETTLED = 10                                 # strain from which means are taken
 REACH = 0.6                                  # gaps that count, um
 PICTURES = 4                                 # of each run in which gaps are looked for
+SMALL_BOX = {"cells": 32, "gap": 15, "strain": 5, "frames": 1000000}    # of the other scripts
+VOLUMES = {"rbc_162": 89.30, "rbc_362": 91.90, "rbc_642": 92.84, "rbc_1442": 93.52,
+           "rbc_2562": 93.75}                # of cells as meshed, um^3
 
 
 def gaps(folder, lengths):

@@ -17,6 +17,7 @@ import run_measures
 import thermo_log
 from scene_script import Script
 
+MESHES = "shape=cell_100,cell_200,cell_400"
 SCRIPT = Path(converge.__file__)
 SCENE = """# a scene
 variable  dx    index 0.5    # of the fluid
@@ -78,7 +79,7 @@ class Converge(unittest.TestCase):
             return list(csv.DictReader(file))
 
     def test_order_limit_and_errors(self):
-        code, printed = self.converge("--vary", "dx=0.8,0.6,0.4", "shape=cell_100,cell_200,cell_400",
+        code, printed = self.converge("--vary", "dx=0.8,0.6,0.4", MESHES,
                                       "--within", "0.25")
         self.assertEqual(code, 0, printed)
         self.assertIn("dx: order 1.50\n", printed)
@@ -95,7 +96,7 @@ class Converge(unittest.TestCase):
         self.assertTrue((self.folder / "out" / "converge.png").exists())
 
     def test_grid(self):
-        code, printed = self.converge("--vary", "dx=0.8,0.6,0.4", "shape=cell_100,cell_200,cell_400",
+        code, printed = self.converge("--vary", "dx=0.8,0.6,0.4", MESHES,
                                       "--grid")
         self.assertEqual(code, 0, printed)
         self.assertEqual(len(self.table()), 9)
@@ -122,7 +123,8 @@ class Converge(unittest.TestCase):
         self.assertNotEqual(record.stat().st_mtime_ns, before)
 
     def test_series_and_two_with_an_order(self):
-        code, printed = self.converge("--vary", "dx=0.8,0.4", "--take", "series", "--order", "dx=1.5")
+        code, printed = self.converge("--vary", "dx=0.8,0.4", "--take", "series",
+                                      "--order", "dx=1.5")
         self.assertEqual(code, 0, printed)
         self.assertIn("order 1.5 as given", printed)
         fine = [row for row in self.table() if row["dx"] == "0.4"]
@@ -154,9 +156,10 @@ class Converge(unittest.TestCase):
                 (("--vary", "dx=2,1", "--lmp", "nothere"), "nothere is not an executable")):
             with self.subTest(words):
                 command = ["converge.py", str(self.folder / "in.scene"), "--measure", "v_x",
-                           "-o", str(self.folder / "out"), "--lmp", str(self.folder / "lmp"), *words]
-                with redirect_stderr(io.StringIO()) as printed, patch.object(sys, "argv", command), \
-                        self.assertRaises(SystemExit) as end:
+                           "-o", str(self.folder / "out"), "--lmp", str(self.folder / "lmp"),
+                           *words]
+                with redirect_stderr(io.StringIO()) as printed, \
+                        patch.object(sys, "argv", command), self.assertRaises(SystemExit) as end:
                     converge.main()
                 self.assertEqual(end.exception.code, 2)
                 self.assertIn(message, printed.getvalue())
@@ -181,7 +184,8 @@ class Scripts(unittest.TestCase):
             self.assertEqual(script.folders(), {"data": str(Path(folder).resolve() / "folder")})
         self.assertIn(f"molecule  cell  {Path(folder).resolve()}/template.mol", lines)
         self.assertEqual(lines[-3:], ["thermo_style custom step pe step time v_x",
-                                      "thermo_modify   line one format float %.12g", "run       100"])
+                                      "thermo_modify   line one format float %.12g",
+                                      "run       100"])
         self.assertEqual(lines[6].split(), ["thermo_style", "custom", "step", "temp"])
 
     def test_without_a_thermo_style(self):
