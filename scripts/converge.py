@@ -230,7 +230,8 @@ def label(changes, setting):
 def printed_by(arguments, name, folder, variables):
     """What a run prints and its core seconds; those of the run before if nothing changed."""
     record = {"script": hashlib.sha256((folder / name).read_bytes()).hexdigest(),
-              "variables": variables, "ranks": arguments.ranks, "lmp": arguments.lmp}
+              "variables": variables, "ranks": arguments.ranks, "lmp": arguments.lmp,
+              "built": os.stat(arguments.lmp).st_mtime_ns}
     path, screen = folder / RECORD, folder / "screen.txt"
     if path.exists() and screen.exists():
         before = json.loads(path.read_text(encoding="utf-8"))

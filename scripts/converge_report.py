@@ -8,6 +8,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
+from matplotlib.ticker import LogLocator, NullLocator  # noqa: E402
 import richardson  # noqa: E402
 
 
@@ -31,8 +32,8 @@ class Analysis:
         self.scale = float(richardson.size(base))
 
     def part(self, i, n):
-        """The error that setting n of what is varied makes: offset (m,), and what the fit adds to
-        its size; None where there is no fit or the run failed."""
+        """The error that setting n of what is varied makes: offset (m,), what the fit adds to its
+        size, and its bound; None where there is no fit or the run failed."""
         line, fit = self.fits.get(i, ((), None))
         names = [setting[i] for setting in line]
         if n not in names:
@@ -42,12 +43,13 @@ class Analysis:
         return offset, fit.bounds[at] - richardson.size(offset), fit.bounds[at]
 
     def of(self, setting, offset):
-        """The Error of a setting, run or not, whose value is that far from the limit of all."""
+        """The Error of a setting, run or not, whose value is that far from the limit of all.
+        Errors of what is varied may cancel each other: the bound does not count on it."""
         parts = [self.part(i, n) for i, n in enumerate(setting)]
         if None in parts:
             return Error(signed(offset), np.inf)
-        more = sum(part[1] for part in parts)
-        return Error(signed(offset), float(richardson.size(offset) + more))
+        _, more, bounds = zip(*parts)
+        return Error(signed(offset), float(max(richardson.size(offset) + sum(more), sum(bounds))))
 
     def error(self, setting):
         return self.of(setting, self.values[setting] - self.limit)
@@ -64,6 +66,10 @@ class Analysis:
             seconds = base * np.prod([self.seconds[one] / base for one in alone])
             found[setting] = self.of(setting, sum(part[0] for part in parts)), seconds
         return found
+
+    def unit(self):
+        """That errors are drawn in: percent of the scale, or by themselves where that is zero."""
+        return 100 / self.scale if self.scale > 0 else 1
 
     def tolerance(self, within):
         number, relative = within
@@ -188,34 +194,47 @@ def write_table(analyses, path):
                                  *(f"{number:.8g}" for number in numbers)])
 
 
+def draw_line(panel, analysis, i, color):
+    """The settings of one that is varied, on axes of seconds and percent (or the unit)."""
+    line, title = sorted(analysis.fits[i][0]), analysis.changes[i].title
+    seconds = [analysis.seconds[setting] for setting in line]
+    errors = [analysis.error(setting) for setting in line]
+    unit = analysis.unit()
+    panel.plot(seconds, [unit * error.bound for error in errors], "o-", color=color,
+               label=f"{title}, error below")
+    panel.plot(seconds, [unit * abs(error.offset) for error in errors], "o:", mfc="none",
+               color=color, label=f"{title}, from the limit")
+    for setting, second, error in zip(line, seconds, errors):
+        word = "finest" if setting == analysis.finest else analysis.changes[i].word(setting[i])
+        if word != "finest" or color == "C0":
+            panel.annotate(word, (second, unit * error.bound), xytext=(4, 4),
+                           textcoords="offset points", fontsize=7)
+
+
 def draw(analyses, arguments, path):
     """Error against core seconds, a panel for each measure."""
-    figure, panels = plt.subplots(1, len(analyses), figsize=(5.6 * len(analyses), 4.4),
+    figure, panels = plt.subplots(1, len(analyses), figsize=(5.6 * len(analyses), 4.8),
                                   layout="constrained", squeeze=False)
     for one, panel in zip(analyses, panels[0]):
-        unit = 100 / one.scale if one.scale > 0 else 1
-        for n, (i, (line, _)) in enumerate(one.fits.items()):
-            line = sorted(line)
-            seconds = [one.seconds[setting] for setting in line]
-            errors = [one.error(setting) for setting in line]
-            panel.plot(seconds, [unit * error.bound for error in errors], "o-", color=f"C{n}",
-                       label=f"{one.changes[i].title}, error below")
-            panel.plot(seconds, [unit * abs(error.offset) for error in errors], "o:", mfc="none",
-                       color=f"C{n}", label=f"{one.changes[i].title}, from the limit")
-            for setting, second, error in zip(line, seconds, errors):
-                panel.annotate(one.changes[i].word(setting[i]), (second, unit * error.bound),
-                               xytext=(4, 4), textcoords="offset points", fontsize=7)
+        for n, i in enumerate(one.fits):
+            draw_line(panel, one, i, f"C{n}")
         rest = [setting for setting in one.values
                 if not any(setting in line for line, _ in one.fits.values())]
-        panel.plot([one.seconds[setting] for setting in rest],
-                   [unit * one.error(setting).bound for setting in rest], ".", color="0.5",
-                   label="other combinations" if rest else None)
+        if rest:
+            panel.plot([one.seconds[setting] for setting in rest],
+                       [one.unit() * one.error(setting).bound for setting in rest], ".",
+                       color="0.5", label="other combinations, error below")
         if arguments.within:
-            panel.axhline(unit * one.tolerance(arguments.within), color="0.6", lw=1)
+            panel.axhline(one.unit() * one.tolerance(arguments.within), color="0.6", lw=1)
         panel.set(title=one.measure, xscale="log", yscale="log", xlabel="core seconds",
                   ylabel="error (%)" if one.scale > 0 else "error")
-        panel.legend(frameon=False, fontsize=8)
-    figure.savefig(path, dpi=110)
+        for axis in (panel.xaxis, panel.yaxis):
+            axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+            axis.set_minor_locator(NullLocator())
+            axis.set_major_formatter("{x:g}")
+        panel.legend(frameon=False, fontsize=8, ncols=2, loc="upper center",
+                     bbox_to_anchor=(0.5, -0.14))
+    figure.savefig(path, dpi=100)
 
 
 def report(analyses, arguments):
