@@ -69,7 +69,7 @@ def sizes_of(words):
         if None in counts:
             raise ValueError("has a value without a number: --size NAME=... gives their sizes")
         values = [float(count[1]) for count in counts]
-        return [value**-0.5 for value in values], "1/sqrt of the number in the name"
+        return [value**-0.5 for value in values], "1/sqrt of the number in it"
     if min(values) <= 0:
         raise ValueError("has a value that is not positive: --size NAME=... gives their sizes")
     if values == sorted(values):

@@ -11,6 +11,8 @@ import numpy as np  # noqa: E402
 from matplotlib.ticker import LogLocator, NullLocator  # noqa: E402
 import richardson  # noqa: E402
 
+WORTH_IT = 0.9    # of the core seconds of the best run: a combination that is not run is named
+
 
 class Error(NamedTuple):
     """Of a setting, in the unit of the measure."""
@@ -169,8 +171,8 @@ def print_choice(analyses, within, asked):
     guess = {setting: ([part[setting][0] for part in parts], parts[0][setting][1])
              for setting in parts[0] if all(setting in part for part in parts)}
     better = cheapest(analyses, guess, within)
-    if better and (best is None or better[0] < best[0]):
-        print(f"not run (--grid does), if errors add: {words(first.changes, better[1])}, about "
+    if better and (best is None or better[0] < WORTH_IT * best[0]):
+        print(f"not run, if errors add: {words(first.changes, better[1])}, about "
               f"{better[0]:.3g} core s")
     if len(first.changes) > 1:
         at = best[1] if best else first.finest

@@ -18,7 +18,7 @@ LEAST, HIGHEST = 0.5, 2.0            # orders that an error is estimated with, i
 ORDERS = np.arange(0.05, 8.0, 0.01)  # that are tried
 DRAWS = 400                          # of the noise
 SURE = 0.95                          # share of the draws that must show an order
-WIDEST = 1.0                         # range of two thirds of the orders drawn, at most
+WIDEST = 1.0                         # range of two thirds of the orders drawn, up to HIGHEST
 FLAT = 1e-9                          # relative range that is round-off
 
 
@@ -129,7 +129,7 @@ def fit_sorted(h, values, noise, order):
         orders = drawn_orders(h, weights, values, noise)
         share = np.mean(np.nan_to_num(orders) >= LEAST)
         between = tuple(np.nanpercentile(orders, (100 / 6, 500 / 6))) if share > 0.5 else ()
-        if share < SURE or np.ptp(between) > WIDEST:
+        if share < SURE or np.ptp(np.minimum(between, order or HIGHEST)) > WIDEST:
             why = "it is within the noise"
     if why:
         return without_order(h, weights, values, noise, observed, between, why)

@@ -2,7 +2,8 @@
 import re
 from pathlib import Path
 
-READERS = "include", "read_data", "read_restart", "molecule", "jump", "region", "pair_coeff"
+FILES = "include", "read_data", "read_restart", "jump"     # the first word is a file
+READERS = *FILES, "molecule", "region", "pair_coeff"
 RUNS = "run", "minimize", "rerun"
 DIGITS = "thermo_modify   line one format float %.12g"
 
@@ -21,11 +22,16 @@ class Script:
         return {line[1]: " ".join(line[3:]).strip("\"'") for line in words
                 if line[:1] == ["variable"] and line[2:3] == ["index"]}
 
-    def place(self, word):
-        """The word, or the path if it names a file or folder beside the script."""
-        there = self.path.parent / word
-        named = "$" not in word and word not in (".", "..") and there != self.path
-        return str(there.resolve()) if named and there.exists() else word
+    def place(self, word, bare=False):
+        """The word, or the path if it names a file or folder beside the script or in the current
+        folder. Without `bare` it must look like one, with a dot or slash."""
+        if "$" in word or word in (".", "..") or not (bare or "." in word or "/" in word):
+            return word
+        for folder in (self.path.parent, Path.cwd()):
+            there = folder / word
+            if there.exists() and there.resolve() not in (self.path, folder.resolve()):
+                return str(there.resolve())
+        return word
 
     def folders(self):
         """{name: path} of the variables that name a file or folder which the script reads."""
@@ -33,9 +39,11 @@ class Script:
                 if value and self.place(value) != value}
 
     def placed(self, line):
-        if line.split()[:1] and line.split()[0] in READERS:
-            return re.sub(r"\S+", lambda word: self.place(word[0]), line)
-        return line
+        command = (line.split() or [""])[0]
+        if command not in READERS:
+            return line
+        return re.sub(r"\S+", lambda word: self.place(word[0], command in FILES and
+                                                      word[0] != command), line)
 
     def can_measure(self):
         return any(line.split()[:1] and line.split()[0] in RUNS for line in self.lines)

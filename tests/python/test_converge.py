@@ -23,8 +23,9 @@ SCENE = """# a scene
 variable  dx    index 0.5    # of the fluid
 variable  shape index cell_100
 variable  rows  index 100
-variable  data  index folder
+variable  data  index ./folder
 molecule  cell  template.mol
+read_data cell add append
 thermo_style custom step &
               temp
 run       10
@@ -178,15 +179,17 @@ class Scripts(unittest.TestCase):
             path.write_text(SCENE)
             (Path(folder) / "template.mol").write_text("\n")
             (Path(folder) / "folder").mkdir()
+            (Path(folder) / "cell").write_text("\n")
             script = Script(path)
             lines = script.measuring(["v_x"]).splitlines()
             self.assertEqual(list(script.variables()), ["dx", "shape", "rows", "data"])
             self.assertEqual(script.folders(), {"data": str(Path(folder).resolve() / "folder")})
         self.assertIn(f"molecule  cell  {Path(folder).resolve()}/template.mol", lines)
+        self.assertIn(f"read_data {Path(folder).resolve()}/cell add append", lines)
         self.assertEqual(lines[-3:], ["thermo_style custom step pe step time v_x",
                                       "thermo_modify   line one format float %.12g",
                                       "run       100"])
-        self.assertEqual(lines[6].split(), ["thermo_style", "custom", "step", "temp"])
+        self.assertEqual(lines[7].split(), ["thermo_style", "custom", "step", "temp"])
 
     def test_without_a_thermo_style(self):
         with tempfile.TemporaryDirectory() as folder:

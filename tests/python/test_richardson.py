@@ -146,6 +146,14 @@ class Noise(unittest.TestCase):
         covered = np.mean([fit.bounds >= values - 3 for fit in fits], axis=0)
         self.assertTrue((covered > 0.95).all(), covered)
 
+    def test_orders_that_are_high_in_any_case(self):
+        """How high does not matter, as 2 is used."""
+        fits, values = self.drawn(0.01, order=3.5)
+        self.assertGreater(np.mean([fit.order == 2 for fit in fits]), 0.9)
+        self.assertGreater(np.mean([np.ptp(fit.between) > 1 for fit in fits]), 0.1)
+        covered = np.mean([fit.bounds >= values - 3 for fit in fits], axis=0)
+        self.assertTrue((covered > 0.95).all(), covered)
+
     def test_more_than_the_differences(self):
         fits, values = self.drawn(1.0)
         self.assertGreater(np.mean([fit.why == "it is within the noise" or "up and down" in fit.why
