@@ -228,9 +228,10 @@ def draw(analyses, arguments, path):
                        color="0.5", label="other combinations, error below")
         if arguments.within:
             panel.axhline(one.unit() * one.tolerance(arguments.within), color="0.6", lw=1)
-        panel.set(title=one.measure, xscale="log", yscale="log", xlabel="core seconds",
-                  ylabel="error (%)" if one.scale > 0 else "error")
-        for axis in (panel.xaxis, panel.yaxis):
+        some = any(one.error(setting).bound > 0 for setting in one.values)
+        panel.set(title=one.measure, xscale="log", yscale="log" if some else "linear",
+                  xlabel="core seconds", ylabel="error (%)" if one.scale > 0 else "error")
+        for axis in (panel.xaxis, panel.yaxis) if some else (panel.xaxis,):
             axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
             axis.set_minor_locator(NullLocator())
             axis.set_major_formatter("{x:g}")

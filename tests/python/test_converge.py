@@ -131,6 +131,13 @@ class Converge(unittest.TestCase):
         fine = [row for row in self.table() if row["dx"] == "0.4"]
         self.assertAlmostEqual(float(fine[0]["from_limit"]), 0.5 * 0.4**1.5, places=3)
 
+    def test_values_that_are_all_the_same(self):
+        code, printed = self.converge("--vary", "rows=50,100", "--within", "1%")
+        self.assertEqual(code, 0, printed)
+        self.assertNotIn("Warning", printed)
+        self.assertIn("rows: order unknown, the values are the same", printed)
+        self.assertRegex(printed, "cheapest run with an error below 1 %: rows=(50|100), ")
+
     def test_listed_from_fine_to_coarse(self):
         """Rising numbers are counts: their kind is printed."""
         _, printed = self.converge("--vary", "dx=0.4,0.6,0.8")
