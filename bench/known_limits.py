@@ -7,6 +7,7 @@ settings, extrapolated with the known order. Runs stay in the folder, in runs/, 
 again.
 """
 import csv
+import itertools
 import math
 import re
 import subprocess
@@ -18,8 +19,9 @@ HERE = Path(__file__).resolve().parent
 TOP = HERE.parent
 sys.path.insert(0, str(TOP / "scripts"))
 import command_line  # noqa: E402
+import converge  # noqa: E402
 import example_study  # noqa: E402
-from richardson import extrapolate  # noqa: E402
+import richardson  # noqa: E402
 
 DEFORMATION, VOLUME = "c_cell[1][7]", "c_cell[1][6]"
 CAPSULE = "sheets=no", "strain=1", "Ca=0.0375"
@@ -80,7 +82,7 @@ CASES = {
                   ("--take", "mean", "--part", "0.4"))}
 
 
-def converge(arguments, name, vary):
+def run_case(arguments, name, vary):
     """What converge.py prints for a case and its rows, with the words of `vary` as values."""
     case = CASES[name]
     folder = arguments.output / "runs" / name.replace(" ", "_").replace(",", "")
@@ -93,40 +95,54 @@ def converge(arguments, name, vary):
         return done.stdout, list(csv.DictReader(file))
 
 
-def size(word):
-    """Of a value, as converge.py takes it."""
-    first = word.split(":")[0]
-    if first.startswith("capsule_"):
-        return float(first.removeprefix("capsule_"))**-0.5
-    return 1 / float(first) if ":" in word else float(first)
-
-
 def limit_of(arguments, name):
     """That of the case, from much finer runs where it is not known otherwise."""
     case = CASES[name]
     if isinstance(case.limit, float):
         return case.limit
-    varied = case.vary.partition("=")[0]
-    _, rows = converge(arguments, name, f"{varied}={','.join(case.limit)}")
-    values = {row[varied]: float(row["value"]) for row in rows}
-    coarse, fine = case.limit
-    return extrapolate(size(fine), values[fine], size(coarse), values[coarse], float(case.order))
+    vary = f"{case.vary.partition('=')[0]}={','.join(case.limit)}"
+    _, rows = run_case(arguments, name, vary)
+    varied = list_of(vary)
+    values = {row[varied.title]: float(row["value"]) for row in rows}
+    coarse, fine = (values[varied.word(n)] for n in range(2))
+    return richardson.extrapolate(varied.sizes[1], fine, varied.sizes[0], coarse,
+                                  float(case.order))
+
+
+def list_of(vary):
+    """The Varied of converge.py."""
+    return converge.complete(*converge.varied(vary), {}, {})
+
+
+def covered_by(rows, varied, exact, count):
+    """Errors that fits of any `count` of the rows cover, and how many there are."""
+    sizes = {varied.word(n): size for n, size in enumerate(varied.sizes)}
+    found = []
+    for some in itertools.combinations(rows, count):
+        values, noise = ([float(row[name]) for row in some] for name in ("value", "noise"))
+        fit = richardson.fit([sizes[row[varied.title]] for row in some], values, noise)
+        found += [bound >= abs(value - exact) for value, bound in zip(values, fit.bounds)]
+    return sum(found), len(found)
 
 
 def measured(arguments, name):
     """The row of a case."""
     case = CASES[name]
     exact = limit_of(arguments, name)
-    printed, rows = converge(arguments, name, case.vary)
+    printed, rows = run_case(arguments, name, case.vary)
     found = re.search(r": order (unknown|[\d.]+)", printed)[1]
     limit = re.search(r"^limit (\S+),.*below (\S+)$", printed, re.MULTILINE)
     errors = [abs(float(row["value"]) - exact) for row in rows]
     bounds = [float(row["error_below"]) for row in rows]
     ratios = [bound / error for bound, error in zip(bounds, errors)]
+    varied = list_of(case.vary)
+    subsets = {f"covered_by_any_{count}": "{} of {}".format(*covered_by(rows, varied, exact, count))
+               for count in (2, 3)}
     return {"case": name, "known_order": case.order, "order": found, "known_limit": f"{exact:.6g}",
             "limit": limit[1], "settings": len(rows),
             "covered": sum(ratio >= 1 for ratio in ratios),
             "least_ratio": f"{min(ratios):.3g}", "largest_ratio": f"{max(ratios):.3g}",
+            **subsets,
             "core_seconds": f"{sum(float(row['core_seconds']) for row in rows):.3g}"}
 
 
@@ -140,6 +156,9 @@ def main():
             print(*found[-1].values(), sep=" | ", flush=True)
     print(sum(row["covered"] for row in found), "of", sum(row["settings"] for row in found),
           "errors are covered")
+    for name in ("covered_by_any_2", "covered_by_any_3"):
+        good, all_of_them = zip(*(map(int, row[name].split(" of ")) for row in found))
+        print(f"{name}: {sum(good)} of {sum(all_of_them)}")
     with open(arguments.output / "known_limits.csv", "w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, found[0], lineterminator="\n")
         writer.writeheader()
