@@ -14,12 +14,11 @@ import sys
 import tempfile
 from pathlib import Path
 
-import numpy as np
-
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "scripts"))
 import blood_study  # noqa: E402
 import command_line  # noqa: E402
+import numpy as np  # noqa: E402
 import example_study  # noqa: E402
 from read_ave_time import read_ave_time, read_table  # noqa: E402
 
