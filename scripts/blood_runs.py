@@ -8,6 +8,7 @@ from typing import NamedTuple
 import example_study    # before numpy, which may be missing
 import numpy as np
 
+import thermo_log
 from plot_aggregates import mean_classes
 from read_ave_time import read_table
 from snapshots import surfaces
