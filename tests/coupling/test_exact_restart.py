@@ -29,7 +29,8 @@ BOUNDARIES = {"plates": {}, "walls": dict(WALL, wall="fix vessel wall rbc/wall f
               "moving walls": dict(WALL, wall="fix vessel wall rbc/wall flow velocity v_U 0 0")}
 MEMBRANES = {"elastic": "volume yes", "viscous": "volume yes viscosity 0.5",
              "thinning": "volume yes viscosity 0.5 thinning 0.1 0.001",
-             "smooth": "volume yes smooth yes", "inside": "volume yes interior 7.5 viscosity 0.5"}
+             "smooth": "volume yes smooth yes", "inside": "volume yes interior 7.5 viscosity 0.5",
+             "filled": "volume yes interior 7.5"}
 CONTACTS = {"no contact": "", "contact": "pair_style rbc/jkr 0.6\npair_coeff * * none\n"
             "pair_coeff 1 1 adhesive 0.0628 1.0e-3 0.3",
             "boundaries": "region between block INF INF INF INF 0 12\npair_style rbc/jkr 2.6 units dx BOUNDARIES\n"
@@ -48,7 +49,8 @@ FEW = [("euler", "plates", "elastic", "contact", "mean x"), ("ab2", "walls", "vi
        ("adapt order 3", "moving walls", "elastic", "no contact", "driven"),
        ("order 3", "plates", "thinning", "contact", "driven"), ("midpoint", "direct", "contact"),
        ("rkc auto", "plates", "smooth", "contact", "driven"), ("rkc adapt", "plates", "inside", "contact", "driven"),
-       ("midpoint", "walls", "inside", "no contact", "mean x"),
+       ("midpoint", "walls", "inside", "no contact", "mean x"), ("midpoint", "plates", "filled", "contact", "driven"),
+       ("rkc auto", "plates", "filled", "contact", "mean x"),
        ("rkc auto", "plates", "elastic", "boundaries", "driven"), ("midpoint", "walls", "elastic", "boundaries", "mean x")]
 
 

@@ -84,8 +84,7 @@ TEST_F(Equations, TakeTheMemoryOfTheIterationsMade)
 /// What was solved before is solved again in one iteration, as are sums of it.
 TEST_F(Equations, AreSolvedAtOnceAlongKeptDirections)
 {
-  KeptDirections kept;
-  kept.most = 2;
+  KeptDirections kept(2);
   Numbers other(size, 0.3);
   for (const Numbers &wanted : {solution, other}) {
     Numbers y(size), r = test::product(matrix, wanted);
@@ -104,8 +103,7 @@ TEST_F(Equations, AreSolvedAtOnceAlongKeptDirections)
 /// residual that is returned.
 TEST_F(Equations, AreSolvedWithDirectionsOfOtherEquations)
 {
-  KeptDirections kept;
-  kept.most = 3;
+  KeptDirections kept(3);
   for (int n = 0; n < 5; ++n) {
     for (int i = 0; i < size; ++i) {
       matrix[i][(i + n) % size] += 0.2;
@@ -122,8 +120,7 @@ TEST_F(Equations, AreSolvedWithDirectionsOfOtherEquations)
 
 TEST_F(Equations, ForgetDirections)
 {
-  KeptDirections kept;
-  kept.most = 1;
+  KeptDirections kept(1);
   Numbers y(size), r = test::product(matrix, solution), again = r;
   gmres.solve(apply, motion, r, 1e-12, y, &kept);
   const int iterations = gmres.iterations();

@@ -24,10 +24,6 @@ static constexpr double MARGIN = 0.9;
 
 static constexpr double ESTIMATE_ERROR = 0.01;
 
-// solutions that precondition the next ones
-
-static constexpr int MOST_KEPT = 4;
-
 /* ---------------------------------------------------------------------- */
 
 void ImplicitVelocity::set_limits(double tolerance, int max_iterations)
@@ -43,7 +39,6 @@ void ImplicitVelocity::start_run(DrivenFlow *flow, const std::vector<CellMembran
   contrast_ = contrast;
   flow_is_behind_ = false;
   kept_.forget();
-  kept_.most = MOST_KEPT;
   viscous_.clear();
   for (CellMembranes *cells : membranes)
     if (cells->is_viscous()) viscous_.push_back(cells);
@@ -120,8 +115,8 @@ double ImplicitVelocity::find_residual()
   return std::sqrt(dot(markers_, residual_, residual_));
 }
 
-/// Solutions of before help where only layers count. With viscous forces the equation is too stiff:
-/// where atoms have moved a little, they lead away, and there are twice the iterations.
+/// Earlier solutions help where only layers count. With viscous forces the equation is so stiff that
+/// they mislead the solver where atoms have moved a little: it takes twice as many iterations.
 double ImplicitVelocity::solve_linear(double tolerance, Dependence dependence)
 {
   const bool helps = dependence == Dependence::layers || viscous_.empty();

@@ -28,7 +28,7 @@ class ViscosityContrast;
 /// round that does not halve the error is followed by one that takes the viscosity of the present
 /// velocities as constant; such a round always lowers the error (Kacanov's method).
 /// Where only double layers count, the solutions of the evaluations before precondition the next
-/// ones. They are forgotten where atoms migrate, as they do at a restart.
+/// ones. They are forgotten whenever neighbors are found, as at a restart.
 class ImplicitVelocity : protected Pointers {
  public:
   ImplicitVelocity(LAMMPS *lmp, ImmersedMarkers &markers) : Pointers(lmp), markers_(markers) {}
@@ -83,7 +83,7 @@ class ImplicitVelocity : protected Pointers {
   const ViscosityContrast *contrast_ = nullptr;
   double tolerance_ = 1e-4;
   rbc::Gmres gmres_;
-  rbc::KeptDirections kept_;
+  rbc::KeptDirections kept_{4};
   bigint evaluations_ = 0, iterations_ = 0, unconverged_ = 0;
   double error_ = 0;
   bool flow_is_behind_ = false;

@@ -10,6 +10,7 @@
 #include "neighbor.h"
 #include "pair.h"
 
+#include <algorithm>
 #include <mpi.h>
 #include <numeric>
 #include <vector>
@@ -27,6 +28,8 @@ std::string MemoryTable::table(bigint vertices) const
     bytes.push_back(amount);
   };
   if (force->pair) add(fmt::format("pair {}", force->pair_style), force->pair->memory_usage());
+  const double of_pair = force->pair ? force->pair->memory_usage() : 0;
+  add("other forces", force->memory_usage() - of_pair);
   for (int n = 0; n < modify->nfix; ++n)
     add(fmt::format("fix {}", modify->fix[n]->id), modify->fix[n]->memory_usage());
   for (int n = 0; n < modify->ncompute; ++n)
@@ -36,12 +39,14 @@ std::string MemoryTable::table(bigint vertices) const
   MPI_Allreduce(MPI_IN_PLACE, bytes.data(), static_cast<int>(bytes.size()), MPI_DOUBLE, MPI_SUM,
                 world);
 
-  std::string text = "Memory           | bytes/vertex | %share\n"
-                     "-------------------------------------\n";
+  std::size_t widest = 14;
+  for (const std::string &name : names) widest = std::max(widest, name.size());
+  std::string text =
+      fmt::format("{:<{}} | bytes/vertex | %share\n{:->{}}\n", "Memory", widest, "", widest + 24);
   for (std::size_t n = 0; n < names.size(); ++n) {
     const double each = bytes[n] / static_cast<double>(vertices);
     if (each >= 1)
-      text += fmt::format("{:<16} | {:12.5g} | {:6.2f}\n", names[n], each,
+      text += fmt::format("{:<{}} | {:12.5g} | {:6.2f}\n", names[n], widest, each,
                           100 * bytes[n] / bytes.back());
   }
   return text;

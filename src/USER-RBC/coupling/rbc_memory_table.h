@@ -8,7 +8,7 @@
 
 namespace LAMMPS_NS {
 
-/// Where the memory of a scene is: a line for each of LAMMPS's classes, pair styles, fixes and
+/// Where the memory of a scene is: a line for each of LAMMPS's classes, styles of forces, fixes and
 /// computes that says of itself what it takes, summed over ranks, ghosts included.
 class MemoryTable : protected Pointers {
  public:

@@ -8,6 +8,7 @@
 #include "fix.h"
 #include "force.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "output.h"
 #include "pair.h"
 #include "update.h"
@@ -207,9 +208,15 @@ bool TimeSteps::are_velocities_same()
 
 /* ---------------------------------------------------------------------- */
 
+/* ----------------------------------------------------------------------
+   A run that starts where neighbors were found, from a restart file too, knows no directions. So
+   none is known in the step after these were found in the middle of a run.
+------------------------------------------------------------------------- */
+
 void TimeSteps::advance()
 {
   choose_timestep();
+  if (neighbor->ago == 0) markers_.implicit().forget_directions();
   markers_.load(atom->x, X_);
   markers_.load(atom->v, V_);
   for (CellCrossings *crossings : crossings_) crossings->start_step();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace rbc {
@@ -19,12 +20,12 @@ template <typename Value> void resize_tightly(std::vector<Value> &values, std::s
   values.resize(size);
 }
 
-template <typename Value> void push_back_tightly(std::vector<Value> &values, const Value &value)
+template <typename Value> void push_back_tightly(std::vector<Value> &values, Value value)
 {
   constexpr std::size_t least = 64;
   if (values.size() == values.capacity())
     values.reserve(least + values.size() + values.size() / 16);
-  values.push_back(value);
+  values.push_back(std::move(value));
 }
 
 }    // namespace rbc

@@ -1,10 +1,13 @@
 #include "motion/kept_directions.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rbc {
 
 namespace {
+
+constexpr double LEAST_NEW = 1e-8;    // part of an image that is not a sum of those known
 
 void add(Numbers &sum, double factor, const Numbers &values)
 {
@@ -29,9 +32,10 @@ void KeptDirections::precondition(const Motion &motion, Numbers &r)
 
 void KeptDirections::keep(const Motion &motion, Numbers &direction, Numbers &image)
 {
-  if (most == 0) return;
-  pairs_.resize(most);
-  if (count_ == most) {
+  const double whole = std::sqrt(dot(motion, image, image));
+  if (!(whole > 0 && std::isfinite(whole))) return;
+  pairs_.resize(most_);
+  if (count_ == most_) {
     std::rotate(pairs_.begin(), pairs_.begin() + 1, pairs_.end());
     --count_;
   }
@@ -42,7 +46,7 @@ void KeptDirections::keep(const Motion &motion, Numbers &direction, Numbers &ima
     add(image, -overlaps_[k], pairs_[k].image);
   }
   const double length = std::sqrt(dot(motion, image, image));
-  if (!(length > 0)) return;
+  if (!(length > LEAST_NEW * whole)) return;
   Pair &last = pairs_[count_++];
   last.change.assign(image.size(), 0.0);
   last.image.assign(image.size(), 0.0);

@@ -11,15 +11,15 @@ namespace rbc {
 /// and leaves vectors at right angles to all images as they are.
 class KeptDirections {
  public:
-  int most = 0;    ///< solutions kept
+  explicit KeptDirections(int most) : most_(most) {}
 
   void forget() { count_ = 0; }
 
   /// One sum over ranks, none without directions.
   void precondition(const Motion &motion, Numbers &r);
 
-  /// Keeps `direction`, whose image is `image`, in place of the oldest one. Overwrites both. Two
-  /// sums over ranks.
+  /// Keeps `direction`, whose image is `image`, unless that is a sum of the images known; the oldest
+  /// pair goes where there are `most`. Overwrites both. Up to three sums over ranks.
   void keep(const Motion &motion, Numbers &direction, Numbers &image);
 
   std::size_t bytes() const;
@@ -30,8 +30,8 @@ class KeptDirections {
     Numbers image;     ///< orthonormal to the others
   };
 
+  int most_, count_ = 0;
   std::vector<Pair> pairs_;    ///< the oldest first
-  int count_ = 0;
   Numbers overlaps_;
 
   void find_overlaps(const Motion &motion, const Numbers &r);

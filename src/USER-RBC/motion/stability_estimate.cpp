@@ -75,7 +75,7 @@ bool StabilityEstimate::is_due(Motion &motion, const PointStore &store, int mode
   return doubted && is_exceeded(motion, store, mode_vector, start, bearable);
 }
 
-/// Leaves everything as it is, so that a run in pieces is that of one piece.
+/// Leaves what the stages depend on as it is, so that a run in pieces is that of one piece.
 bool StabilityEstimate::is_exceeded(Motion &motion, const PointStore &store, int mode_vector,
                                     const StepStart &start, double bearable)
 {
