@@ -32,6 +32,7 @@ SCRIPTS = ROOT / "scripts"
 # Variables of the input scripts of examples/.
 EXAMPLES = {
     "balloon": dict(shape="capsule_162", dx=0.25, box=4.5, stretch=1.5, timestep=0.06),
+    "bifurcation": dict(dx=1.0, hematocrit=0.1, scripts=SCRIPTS),
     "capsule-channel": dict(shape="capsule_642", cells=10, length=4),
     "capsule-shear": dict(shape="capsule_162", dx=0.25, length=5, gap=5),
     "cell-statistics": dict(cells=4),
