@@ -3,8 +3,8 @@
 Runs in.blood over a strain of 5 for each (six minutes of processor time in all), writes blood.csv
 to a folder. The series rbc_162, rbc_362 and rbc_642 are the same with these meshes, in smaller
 boxes and with steps of one length, `rkc auto` without `adapt` (an hour in all): meshes.csv. Series
-readme is the first scene of the top folder's README with these meshes: readme.csv. Series scene is
-in.blood as it is, with a finer mesh and with cells that adhere, over a strain of 10: scene.csv.
+readme is the scene ../suspension-shear/in.plain, which was the README's, with these meshes:
+readme.csv. Series scene is in.blood as it is, with a finer mesh and with cells that adhere, over a strain of 10: scene.csv.
 
 study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1] [--only roma3]
 """
@@ -93,13 +93,12 @@ def measure_mesh(arguments, variables):
     return [[found[name] for name in MESH_COLUMNS]]
 
 
-def readme_scene(shape, dx, kernel, hematocrit, rate, length, lines=""):
-    """The first scene of the README with other numbers, and further lines before its run."""
-    text = (HERE.parents[1] / "README.md").read_text(encoding="utf-8")
-    scene = text.split("## A scene")[1].split("```")[1]
+def plain_scene(shape, dx, kernel, hematocrit, rate, length, lines=""):
+    """The plain scene with other numbers, and further lines before its run."""
+    scene = (HERE.parent / "suspension-shear" / "in.plain").read_text(encoding="utf-8")
     speed = rate * 1e-6 * GAP / 2
     for pattern, new in (
-            (r"potentials/rbc_642", f"{example_study.POTENTIALS}/{shape}"), (r"dx 0\.5", f"dx {dx}"),
+            (r"\.\./\.\./potentials/rbc_642", f"{example_study.POTENTIALS}/{shape}"), (r"dx 0\.5", f"dx {dx}"),
             (r"rbc/ib flow .*", f"rbc/ib flow kernel {kernel}"), (r"zlo -0\.0012", f"zlo -{speed}"), (r"zhi 0\.0012", f"zhi {speed}"),
             (r"block 0 24 0 24 0 24", f"block 0 {length} 0 {length} 0 {GAP}"),
             (r"number 27 (.*) overlap 0\.5", rf"hematocrit {hematocrit} \1 overlap 0.1"),
@@ -108,7 +107,7 @@ def readme_scene(shape, dx, kernel, hematocrit, rate, length, lines=""):
             (r"run +500", f"{lines}\nrun $(ceil({STRAIN}/({rate}*1e-6*dt)))")):
         scene, found = re.subn(pattern, new, scene)
         if found != 1:
-            raise SystemExit(f"the README's scene has {found} times {pattern}")
+            raise SystemExit(f"in.plain has {found} times {pattern}")
     return scene
 
 
@@ -116,7 +115,7 @@ def measure_readme(arguments, variables):
     """A row of README_COLUMNS."""
     with tempfile.TemporaryDirectory() as folder:
         script = Path(folder) / "in.scene"
-        script.write_text(readme_scene(**variables), encoding="utf-8")
+        script.write_text(plain_scene(**variables), encoding="utf-8")
         done = example_study.run_script(arguments, script, folder, {})
     if done.returncode:
         print_why(done)

@@ -12,7 +12,7 @@ from scene_case import polyhedron, run_example
 SMALL = dict(length=16, gap=12, every=1, frames=1000)
 COLLECTED = r"WARNING: Fix rbc/fluid flow: (.*) \("
 
-# what a newcomer makes of the README's scene for 40 %, with coarse cells and a short run
+# what a newcomer makes of examples/suspension-shear/in.plain for 40 %, with coarse cells and a short run
 FIRST_TRY = f"""
 units           micro
 atom_style      molecular
