@@ -191,7 +191,7 @@ CREATE_ERRORS = {
     "rotate without single": (dict(cells=CREATE + "rotate 30 1 0 0 number 1"), ["rbc/create rotate", "single"]),
     "rotate without axis": (dict(cells=CREATE + "single 6 6 6 rotate 30 0 0 0"),
                             ["rbc/create rotate", "axis", "0 0 0"]),
-    "file missing": (dict(cells=CREATE + "file"), ["rbc/create file", "missing"]),
+    "file missing": (dict(cells=CREATE + "type 1 file"), ["rbc/create file", "missing"]),
     "no such file": (dict(cells=CREATE + "file none.txt"), ["rbc/create file", "cannot open none.txt", "No such file"]),
     "file and number": (dict(cells=CREATE + "file none.txt number 3 seed 1"), ["rbc/create", "only one of"]),
     "file with a region": (dict(cells="region r sphere 6 6 6 5\n" + CREATE + "file none.txt region r"),

@@ -296,7 +296,7 @@ void NearTriangles::find_nearest(const double *x, double range)
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const Group &group = groups_[g];
     if (candidates_[group.begin].distance <= range + motion_.around(group.point))
-      push_back_tightly(near_groups_, static_cast<int>(g));
+      near_groups_.push_back(static_cast<int>(g));
   }
   visit_distances(
       x, static_cast<int>(near_groups_.size()),
@@ -311,7 +311,7 @@ void NearTriangles::find_nearest(const double *x, double range)
     const Group &group = groups_[g];
     const double far = std::min(range, std::sqrt(group.distance2)) + motion_.around(group.point);
     for (int n = group.begin; n < group.end && !(candidates_[n].distance > far); ++n)
-      if (n != group.nearest) push_back_tightly(others_, {g, n});
+      if (n != group.nearest) others_.push_back({g, n});
   }
   visit_distances(
       x, static_cast<int>(others_.size()),
@@ -351,8 +351,7 @@ void NearTriangles::add_contact(const double *x, const Group &group)
     const PlainVector out = outward(x, corner, weight, face);
     return (1 / norm(out)) * out;
   };
-  push_back_tightly(contacts_, VertexContact{group.point, corner, weight, direction(),
-                                             inside ? -distance : distance});
+  contacts_.push_back({group.point, corner, weight, direction(), inside ? -distance : distance});
 }
 
 /* ----------------------------------------------------------------------

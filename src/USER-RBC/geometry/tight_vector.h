@@ -7,7 +7,8 @@
 namespace rbc {
 
 // Vectors that grow double their room, and then half of it may stay empty for good. These leave a
-// sixteenth empty, for lists whose sizes change little.
+// sixteenth empty, for lists that are made now and then, of about the same size each time. One that
+// changes in each step would grow in many of them.
 
 template <typename Value> void reserve_tightly(std::vector<Value> &values, std::size_t size)
 {
