@@ -39,15 +39,15 @@ std::string MemoryTable::table(bigint vertices) const
   MPI_Allreduce(MPI_IN_PLACE, bytes.data(), static_cast<int>(bytes.size()), MPI_DOUBLE, MPI_SUM,
                 world);
 
+  const auto each = [&](std::size_t n) { return bytes[n] / static_cast<double>(vertices); };
   std::size_t widest = 14;
-  for (const std::string &name : names) widest = std::max(widest, name.size());
+  for (std::size_t n = 0; n < names.size(); ++n)
+    if (each(n) >= 1) widest = std::max(widest, names[n].size());
   std::string text =
       fmt::format("{:<{}} | bytes/vertex | %share\n{:->{}}\n", "Memory", widest, "", widest + 24);
-  for (std::size_t n = 0; n < names.size(); ++n) {
-    const double each = bytes[n] / static_cast<double>(vertices);
-    if (each >= 1)
-      text += fmt::format("{:<{}} | {:12.5g} | {:6.2f}\n", names[n], widest, each,
+  for (std::size_t n = 0; n < names.size(); ++n)
+    if (each(n) >= 1)
+      text += fmt::format("{:<{}} | {:12.5g} | {:6.2f}\n", names[n], widest, each(n),
                           100 * bytes[n] / bytes.back());
-  }
   return text;
 }
