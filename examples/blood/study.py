@@ -4,7 +4,8 @@ Runs in.blood over a strain of 5 for each (six minutes of processor time in all)
 to a folder. The series rbc_162, rbc_362 and rbc_642 are the same with these meshes, in smaller
 boxes and with steps of one length, `rkc auto` without `adapt` (an hour in all): meshes.csv. Series
 readme is the scene ../suspension-shear/in.plain, which was the README's, with these meshes:
-readme.csv. Series scene is in.blood as it is, with a finer mesh and with cells that adhere, over a strain of 10: scene.csv.
+readme.csv. Series scene is in.blood as it is, with a finer mesh and with cells that adhere, over a
+strain of 10: scene.csv.
 
 study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1] [--only roma3]
 """

@@ -189,7 +189,8 @@ void FixRBCVTK::write(ComputeRBCAggregate *grouping, const std::string &context)
         names[rank] = platform::path_basename(piece(rank));
       rbc::write_pvtp(name, time, data, names);
     }
-    if (comm->me == 0) rbc::add_to_pvd(rbc::pvd_name(file), time, platform::path_basename(name));
+    const std::string list = rbc::pvd_name(file);
+    if (comm->me == 0 && !list.empty()) rbc::add_to_pvd(list, time, platform::path_basename(name));
   } catch (const std::runtime_error &problem) {
     error->one(FLERR, "Fix rbc/vtk {}: {}{}", id, problem.what(), context);
   }

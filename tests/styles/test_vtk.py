@@ -350,6 +350,12 @@ run 3 pre no
         again = moved(2, f"read_restart last.restart\nmolecule rbc {SHAPE}\n" + MEMBRANE, keep)
         self.assertEqual(entries(again), [*entries(first), (3, "cells.6.pvtp")])
 
+    def test_a_folder_for_each_step(self):
+        result = lammps_case.run(BOX + "rbc/create rbc single 6 6 6\n" + MEMBRANE + "shell mkdir at0 at1\n"
+                                 "fix out all rbc/vtk 1 at*/cells.vtp\ntimestep 0.5\nrun 1\n")
+        self.assertEqual(sorted(path.parent.name for path in result.folder.glob("at*/cells.vtp")), ["at0", "at1"])
+        self.assertEqual(list(result.folder.rglob("*.pvd")), [])
+
     def test_bad_arguments(self):
         for arguments, message in (
                 ("0 cells.*.vtp", r"Fix rbc/vtk N value 0 must be > 0"),

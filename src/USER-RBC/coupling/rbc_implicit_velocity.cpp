@@ -115,8 +115,8 @@ double ImplicitVelocity::find_residual()
   return std::sqrt(dot(markers_, residual_, residual_));
 }
 
-/// Earlier solutions help where only layers count. With viscous forces the equation is so stiff that
-/// they mislead the solver where atoms have moved a little: it takes twice as many iterations.
+/// Earlier solutions help where only layers count. With viscous forces the equation is stiff: where
+/// atoms have moved a little, they mislead the solver, which takes twice as many iterations.
 double ImplicitVelocity::solve_linear(double tolerance, Dependence dependence)
 {
   const bool helps = dependence == Dependence::layers || viscous_.empty();

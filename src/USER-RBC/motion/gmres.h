@@ -17,9 +17,9 @@ class Gmres {
   int max_iterations = 100;
 
   /// Adds to y the solution for r, until the length of the residual is not above `tolerance` or
-  /// max_iterations were made. Returns that length. Directions `kept` of earlier solves precondition
-  /// this one from the right, and the solution found is kept with them; then r is overwritten. Two
-  /// sums over ranks per iteration, three with `kept`, and up to four for the solution.
+  /// max_iterations were made. Returns that length. Directions `kept` of earlier solves are a right
+  /// preconditioner of this one, and the solution found is kept with them; then r is overwritten.
+  /// Two sums over ranks per iteration, three with `kept`, and up to four for the solution.
   double solve(const Operator &apply, const Motion &motion, Numbers &r, double tolerance,
                Numbers &y, KeptDirections *kept = nullptr);
 

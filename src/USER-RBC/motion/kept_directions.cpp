@@ -9,11 +9,6 @@ namespace {
 
 constexpr double LEAST_NEW = 1e-8;    // part of an image that is not a sum of those known
 
-void add(Numbers &sum, double factor, const Numbers &values)
-{
-  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += factor * values[i];
-}
-
 }    // namespace
 
 void KeptDirections::find_overlaps(const Motion &motion, const Numbers &r)
@@ -27,7 +22,7 @@ void KeptDirections::find_overlaps(const Motion &motion, const Numbers &r)
 void KeptDirections::precondition(const Motion &motion, Numbers &r)
 {
   find_overlaps(motion, r);
-  for (int k = 0; k < count_; ++k) add(r, overlaps_[k], pairs_[k].change);
+  for (int k = 0; k < count_; ++k) move_along(r, overlaps_[k], pairs_[k].change, r);
 }
 
 void KeptDirections::keep(const Motion &motion, Numbers &direction, Numbers &image)
@@ -42,16 +37,16 @@ void KeptDirections::keep(const Motion &motion, Numbers &direction, Numbers &ima
   find_overlaps(motion, image);
   for (std::size_t i = 0; i < image.size(); ++i) direction[i] -= image[i];
   for (int k = 0; k < count_; ++k) {
-    add(direction, -overlaps_[k], pairs_[k].change);
-    add(image, -overlaps_[k], pairs_[k].image);
+    move_along(direction, -overlaps_[k], pairs_[k].change, direction);
+    move_along(image, -overlaps_[k], pairs_[k].image, image);
   }
   const double length = std::sqrt(dot(motion, image, image));
   if (!(length > LEAST_NEW * whole)) return;
   Pair &last = pairs_[count_++];
   last.change.assign(image.size(), 0.0);
   last.image.assign(image.size(), 0.0);
-  add(last.change, 1 / length, direction);
-  add(last.image, 1 / length, image);
+  move_along(last.change, 1 / length, direction, last.change);
+  move_along(last.image, 1 / length, image, last.image);
 }
 
 std::size_t KeptDirections::bytes() const

@@ -18,8 +18,8 @@ class KeptDirections {
   /// One sum over ranks, none without directions.
   void precondition(const Motion &motion, Numbers &r);
 
-  /// Keeps `direction`, whose image is `image`, unless that is a sum of the images known; the oldest
-  /// pair goes where there are `most`. Overwrites both. Up to three sums over ranks.
+  /// Keeps `direction`, whose image is `image`, unless that is a sum of those known. The oldest of
+  /// `most` pairs goes. Overwrites both. Up to three sums over ranks.
   void keep(const Motion &motion, Numbers &direction, Numbers &image);
 
   std::size_t bytes() const;

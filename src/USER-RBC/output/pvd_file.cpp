@@ -36,6 +36,8 @@ std::string pvd_name(const std::string &series)
   const std::filesystem::path path(series);
   std::string stem = path.stem().string();
   const std::size_t star = stem.find('*');
+  if (star == std::string::npos || path.parent_path().string().find('*') != std::string::npos)
+    return "";
   std::string before = stem.substr(0, star), after = stem.substr(star + 1);
   while (!before.empty() && std::strchr("._-", before.back())) before.pop_back();
   if (before.empty())

@@ -5,7 +5,8 @@
 namespace rbc {
 
 /// Name of the list that goes with a series of files, in whose names a * stands for the step:
-/// out/cells.*.vtp has out/cells.pvd.
+/// out/cells.*.vtp has out/cells.pvd. Empty where the * is in the name of a folder: the files then
+/// have no place in common.
 std::string pvd_name(const std::string &series);
 
 /// Adds a file, whose name is relative to the list, and its time to a list of files (.pvd), which
