@@ -1,9 +1,11 @@
 #include "compute_rbc_aggregate.h"
 
 #include "atom.h"
+#include "cells/rbc_cell_contact.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "force.h"
 #include "memory.h"
 #include "neighbor.h"
 #include "support/rbc_arguments.h"
@@ -13,6 +15,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 
 using namespace LAMMPS_NS;
 using rbc::TouchedShare;
@@ -23,8 +26,7 @@ static constexpr int NCOLS = 3;
 /* ---------------------------------------------------------------------- */
 
 ComputeRBCAggregate::ComputeRBCAggregate(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), cells(lmp, fmt::format("Compute rbc/aggregate {}", id)),
-    near(lmp, fmt::format("Compute rbc/aggregate {}", id)), rows_lock(lmp)
+    Compute(lmp, narg, arg), cells(lmp, fmt::format("Compute rbc/aggregate {}", id)), rows_lock(lmp)
 {
   Arguments args(lmp, "compute rbc/aggregate", narg, arg, 3);
   gap = args.positive("gap");
@@ -63,7 +65,11 @@ void ComputeRBCAggregate::init()
   if (domain->triclinic)
     error->all(FLERR, "Compute rbc/aggregate {} requires an orthogonal box", id);
   cells.find(groupbit);
-  near.init();
+  near.reset();
+  if (!sees_enough(find_cell_contact(force))) {
+    near.emplace(lmp, fmt::format("Compute rbc/aggregate {}", id));
+    near->init();
+  }
   found_step = -1;
 
   const int rows = rbc::AggregateSizes::class_count(cells.size());
@@ -82,7 +88,7 @@ void ComputeRBCAggregate::init()
 
 void ComputeRBCAggregate::setup()
 {
-  near.check_ghosts(gap, neighbor->skin);
+  if (near) near->check_ghosts(gap, neighbor->skin);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -136,6 +142,27 @@ void ComputeRBCAggregate::find_aggregates()
   sizes = rbc::AggregateSizes(sets);
 }
 
+bool ComputeRBCAggregate::sees_enough(const CellContact *contact) const
+{
+  return contact && contact->seen_gap() >= gap;
+}
+
+/* ----------------------------------------------------------------------
+   as near as `gap` or nearer than that; those that a pair style has found, if there are any
+------------------------------------------------------------------------- */
+
+const std::vector<rbc::VertexContact> &ComputeRBCAggregate::contacts()
+{
+  const CellContact *const contact = find_cell_contact(force);
+  if (sees_enough(contact) && contact->sees_this_step()) return contact->near_contacts();
+  if (!near) {
+    near.emplace(lmp, fmt::format("Compute rbc/aggregate {}", id));
+    near->init();
+  }
+  near->build(gap, 0, neighbor->skin);
+  return near->contacts(gap);
+}
+
 /* ----------------------------------------------------------------------
    what the vertices of this rank tell. Of a cell that it holds as a whole it knows whether it
    touches another, and only pairs that join aggregates here go to the other ranks; the shares of
@@ -144,13 +171,14 @@ void ComputeRBCAggregate::find_aggregates()
 
 std::vector<TouchedShare> ComputeRBCAggregate::touched_here()
 {
-  near.build(gap, 0, neighbor->skin);
   const Surface surface = surface_here();
   std::vector<TouchedShare> touched;
-  for (const NearSurfaces::Contact &contact : near.contacts(gap)) {
+  for (const rbc::VertexContact &contact : contacts()) {
+    if (!(std::abs(contact.gap) < gap)) continue;
     const int cell = cells.index_of(atom->molecule[contact.point]);
     const int other = cells.index_of(atom->molecule[contact.corner[0]]);
-    if (cell >= 0 && other >= 0) touched.push_back({cell, other, surface.share[contact.point]});
+    if (cell >= 0 && other >= 0 && cell != other)
+      touched.push_back({cell, other, surface.share[contact.point]});
   }
   rbc::add_up(touched);
 
@@ -207,5 +235,5 @@ ComputeRBCAggregate::Surface ComputeRBCAggregate::surface_here() const
 double ComputeRBCAggregate::memory_usage()
 {
   return static_cast<double>(nmax + size_array_rows * NCOLS) * sizeof(double) +
-         static_cast<double>(cells.size()) * 2 * sizeof(int) + near.bytes();
+         static_cast<double>(cells.size()) * 2 * sizeof(int) + (near ? near->bytes() : 0);
 }

@@ -14,6 +14,7 @@ ComputeStyle(rbc/aggregate,ComputeRBCAggregate);
 #include "contact/touching_cells.h"
 #include "support/rbc_row_lock.h"
 
+#include <optional>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -41,7 +42,7 @@ class ComputeRBCAggregate : public Compute {
   double gap;
   double least_share = 0;    // of a cell's area that lies within the gap, 0 for any vertex
   GroupCells cells;
-  NearSurfaces near;
+  std::optional<NearSurfaces> near;    // where no pair style sees as far
   RowLock rows_lock;
   rbc::DisjointSets sets{0};
   rbc::AggregateSizes sizes;
@@ -49,6 +50,8 @@ class ComputeRBCAggregate : public Compute {
   int nmax = 0;
 
   void find_aggregates();
+  bool sees_enough(const class CellContact *contact) const;
+  const std::vector<rbc::VertexContact> &contacts();
   std::vector<rbc::TouchedShare> touched_here();
   Surface surface_here() const;
 };

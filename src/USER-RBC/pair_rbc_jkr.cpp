@@ -10,6 +10,7 @@
 #include "memory.h"
 #include "modify.h"
 #include "neighbor.h"
+#include "update.h"
 
 #include <algorithm>
 #include <cmath>
@@ -182,11 +183,6 @@ double PairRBCJKR::slack() const
   return 2 * neighbor->skin;
 }
 
-double PairRBCJKR::reach() const
-{
-  return std::max(range, widest_gap);
-}
-
 /* ----------------------------------------------------------------------
    LAMMPS adds the skin to the cutoff between atoms that is returned. Ghosts then reach all corners
    of the triangles in reach of an owned vertex.
@@ -237,6 +233,11 @@ const std::vector<rbc::VertexContact> &PairRBCJKR::near_contacts() const
   return surfaces->last_contacts();
 }
 
+bool PairRBCJKR::sees_this_step() const
+{
+  return seen_step == update->ntimestep;
+}
+
 /* ---------------------------------------------------------------------- */
 
 void PairRBCJKR::setup()
@@ -279,13 +280,14 @@ void PairRBCJKR::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
   adhered_area = 0;
-  if (reach() == 0) return;    // no types touch
+  if (seen_gap() == 0) return;    // no types touch
   finding.start();
   if (neighbors_changed()) {
-    surfaces->build(reach(), slack());
-    if (given.has_boundaries()) boundaries->build(*surfaces, reach(), slack());
+    surfaces->build(seen_gap(), slack());
+    if (given.has_boundaries()) boundaries->build(*surfaces, seen_gap(), slack());
   }
-  const auto &contacts = surfaces->contacts(reach());
+  const auto &contacts = surfaces->contacts(seen_gap());
+  seen_step = update->ntimestep;
   finding.stop();
 
   interacting.start();

@@ -15,6 +15,7 @@ PairStyle(rbc/jkr,PairRBCJKR);
 #include "pair.h"
 #include "support/rbc_step_part.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -45,6 +46,8 @@ class PairRBCJKR : public Pair, public StepPart, public CellContact {
 
   double contact_range(int, int) const override;
   const std::vector<rbc::VertexContact> &near_contacts() const override;
+  double seen_gap() const override { return std::max(range, widest_gap); }
+  bool sees_this_step() const override;
   double own_gap() const override { return given.self ? cutoff : 0; }
   std::string repelling_boundaries(int) const override;
   CellCrossings *crossings() override { return range > 0 ? crossing.get() : nullptr; }
@@ -80,7 +83,7 @@ class PairRBCJKR : public Pair, public StepPart, public CellContact {
   std::vector<TypePair> type_pairs;
   double range = 0;         // largest of them
   double widest_gap = 0;    // up to which fixes want to know of surfaces
-  bigint neighbor_calls = -1, neighbor_step = -1;
+  bigint neighbor_calls = -1, neighbor_step = -1, seen_step = -1;
 
   double adhered_area = 0;
   rbc::Stopwatch finding, interacting;
@@ -94,7 +97,6 @@ class PairRBCJKR : public Pair, public StepPart, public CellContact {
   const TypePair &types(int itype, int jtype) const;
   double read_number(FILE *);
   double slack() const;
-  double reach() const;
   double ghost_reach() const;
   bool has_law() const;
   void check_cells();

@@ -35,7 +35,8 @@ class Bodies {
 
   CrossingFinder::Scene scene(int owned) const
   {
-    return {triangles, size(), owned, MARGIN, 10, false, [](CrossingFinder::Pair) { return true; }};
+    return {
+        &triangles, size(), owned, MARGIN, 10, false, [](CrossingFinder::Pair) { return true; }};
   }
 
   rbc::Triangle corners(const CrossingFinder::Triangle &t) const
@@ -254,7 +255,7 @@ TEST_P(Crossing, OfASurfaceWithItself)
       tube.vertices, [](const Vec3 &v) { return Vec3(v[0], v[1], v[2] < 0.2 ? 0.3 : 0.1); });
   for (const bool own : {true, false}) {
     CrossingFinder finder;
-    finder.build({triangles, static_cast<int>(tube.vertices.size()),
+    finder.build({&triangles, static_cast<int>(tube.vertices.size()),
                   static_cast<int>(tube.vertices.size()), MARGIN, 10, own,
                   [](CrossingFinder::Pair) { return true; }});
     finder.start(tube.vertices[0].data());

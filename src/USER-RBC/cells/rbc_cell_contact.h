@@ -19,6 +19,10 @@ class CellContact {
   /// the largest range, and as the readers of contacts want. Corners may be ghosts.
   virtual const std::vector<rbc::VertexContact> &near_contacts() const = 0;
 
+  /// Gap up to which these are all, and whether they are of the present step.
+  virtual double seen_gap() const = 0;
+  virtual bool sees_this_step() const = 0;
+
   /// Gap up to which a cell is near itself only where its surface faces itself: a part of the
   /// surface around each vertex is not seen. 0 if cells do not see themselves.
   virtual double own_gap() const = 0;

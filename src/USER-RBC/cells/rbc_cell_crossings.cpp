@@ -70,9 +70,9 @@ void CellCrossings::learn_triangles()
 {
   if (build_ == surfaces_.builds()) return;
   build_ = surfaces_.builds();
-  rbc::CrossingFinder::Scene scene = finder_.take_scene();
-  scene.triangles = surfaces_.known_triangles();
-  scene.places = surfaces_.places();
+  rbc::CrossingFinder::Scene scene;
+  scene.triangles = &surfaces_.known_triangles();
+  scene.places = &surfaces_.places();
   scene.points = atom->nlocal + atom->nghost;
   scene.owned = atom->nlocal;
   scene.margin = MARGIN * surfaces_.longest_edge();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -20,8 +21,9 @@ constexpr double TOUCHING = 1e-5;    // of the size of fans: distance of triangl
 
 constexpr double WIDER = 1.25;
 
-// After a build the reach is this much larger than what was needed before it, so that one list
-// holds until the next. At least this part of the margin.
+// After a build the reach is this much larger than what was needed between the two builds before, so
+// that one list holds until the next. At least this part of the margin, and that where nothing is
+// known.
 
 constexpr double LONGER = 1.3, LEAST = 0.1;
 
@@ -40,6 +42,20 @@ constexpr float UNKNOWN = -std::numeric_limits<float>::infinity();
 PlainVector at(const double *x, int n)
 {
   return {x[3 * std::size_t(n)], x[3 * std::size_t(n) + 1], x[3 * std::size_t(n) + 2]};
+}
+
+/// A number by which positions are known again: other positions have another one, but for a chance
+/// of 1 in 2^64.
+std::uint64_t digest(const double *numbers, std::size_t count)
+{
+  std::uint64_t all = count;
+  for (std::size_t n = 0; n < count; ++n) {
+    std::uint64_t bits;
+    std::memcpy(&bits, &numbers[n], sizeof(bits));
+    all = (all ^ bits) * 0x9E3779B97F4A7C15u;
+    all ^= all >> 32;
+  }
+  return all;
 }
 
 /// Where points are along a line.
@@ -103,7 +119,7 @@ CrossingFinder::Sphere CrossingFinder::sphere_around(const double *x, const Tria
 CrossingFinder::Corners CrossingFinder::corners(int body, bool fan) const
 {
   if (!fan) {
-    const auto &corner = scene_.triangles[body].corner;
+    const auto &corner = (*scene_.triangles)[body].corner;
     return {corner.data(), corner.data() + corner.size()};
   }
   const NumberLists &all = near_.fans().corners;
@@ -112,17 +128,17 @@ CrossingFinder::Corners CrossingFinder::corners(int body, bool fan) const
 
 bool CrossingFinder::is_owned(int triangle) const
 {
-  const auto &corner = scene_.triangles[triangle].corner;
+  const auto &corner = (*scene_.triangles)[triangle].corner;
   return *std::min_element(corner.begin(), corner.end()) < scene_.owned;
 }
 
 void CrossingFinder::build(Scene scene)
 {
   scene_ = std::move(scene);
-  first_reach_ = scene_.margin;
-  if (current_) first_reach_ *= std::clamp(LONGER * needed_ / scene_.margin, LEAST, 1.0);
+  foreseen_ = std::clamp(LONGER * (since_build_ + needed_), LEAST * scene_.margin, scene_.margin);
+  since_build_ = needed_ = 0;
   current_ = false;
-  near_.build(scene_.triangles, scene_.places, scene_.points, scene_.owned, scene_.own_surfaces);
+  near_.build(*scene_.triangles, scene_.places, scene_.points, scene_.owned, scene_.own_surfaces);
 }
 
 /* ----------------------------------------------------------------------
@@ -132,22 +148,19 @@ void CrossingFinder::build(Scene scene)
 void CrossingFinder::start(const double *x)
 {
   const std::size_t size = 3 * std::size_t(scene_.points);
-  if (end_.size() == size && std::equal(end_.begin(), end_.end(), x)) {
-    start_.swap(end_);
-    return;
-  }
-  current_ = current_ && start_.size() == size && std::equal(start_.begin(), start_.end(), x);
+  current_ = current_ && start_.size() == size &&
+             (digest(x, size) == end_ || std::equal(start_.begin(), start_.end(), x));
   start_.assign(x, x + size);
 }
 
 CrossingFinder::Outcome CrossingFinder::find(const double *x)
 {
   ++counts_.steps;
-  end_.assign(x, x + 3 * std::size_t(scene_.points));
-  if (!current_) list(start_.data(), first_reach_);
+  end_ = digest(x, start_.size());
+  if (!current_) list(start_.data(), foreseen_);
   find_needed_reach(x);
   if (needed_ >= reach_) {
-    list(start_.data(), scene_.margin);
+    list(start_.data(), std::min(WIDER * needed_, scene_.margin));
     find_needed_reach(x);
   }
   while (needed_ >= reach_) {
@@ -212,16 +225,16 @@ bool CrossingFinder::triangles_touched(Listed &listed, const double *x)
 {
   const double *const from = start_.data();
   const auto [first, second] = listed.pair;
-  const auto first_start = places(from, scene_.triangles[first]),
-             second_start = places(from, scene_.triangles[second]);
+  const auto first_start = places(from, (*scene_.triangles)[first]),
+             second_start = places(from, (*scene_.triangles)[second]);
   const Corners a = corners(first, false), b = corners(second, false);
   listed.line = unit(line_between(first_start, second_start));
   listed.gap = UNKNOWN;
   listed.apart = gap(from, a, b, listed.line) > 0 && gap(x, a, b, listed.line) > 0;
   if (listed.apart) return false;
 
-  const auto first_end = places(x, scene_.triangles[first]),
-             second_end = places(x, scene_.triangles[second]);
+  const auto first_end = places(x, (*scene_.triangles)[first]),
+             second_end = places(x, (*scene_.triangles)[second]);
   MovingTriangle moving[2];
   for (int c = 0; c < 3; ++c) {
     moving[0][c] = {first_start[c], first_end[c]};
@@ -233,13 +246,13 @@ bool CrossingFinder::triangles_touched(Listed &listed, const double *x)
 std::vector<CrossingFinder::Pair> CrossingFinder::crossed(const double *x)
 {
   start(x);
-  list(x, scene_.margin);
+  list(x, foreseen_);
   std::vector<Pair> pairs;
   for (const Listed &listed : listed_) {
     if (listed.apart) continue;
     const auto triangle = [&](int t) {
       rbc::Triangle points;
-      const auto corner = places(x, scene_.triangles[t]);
+      const auto corner = places(x, (*scene_.triangles)[t]);
       for (int c = 0; c < 3; ++c) points[c] = {corner[c].x, corner[c].y, corner[c].z};
       return points;
     };
@@ -254,12 +267,12 @@ std::vector<CrossingFinder::Pair> CrossingFinder::crossed(const double *x)
 void CrossingFinder::list(const double *x, double reach)
 {
   ++counts_.lists;
+  since_build_ += needed_;
   reach_ = reach;
   listed_.clear();
-  held_.take(x, near_.groups().number);
-  near_.bound(held_, reach_);
-  radius_ = near_.largest_radius();
-  motion_.hold(held_, near_.groups(), near_.centres(), 2 * (radius_ + reach_));
+  near_.hold(x, reach_);
+  radius_ = near_.held().largest_radius();
+  motion_.hold(near_.held(), 2 * (radius_ + reach_));
   find_normals(x);
   near_.visit_pairs([&](int first, int second) { consider_fans(x, {first, second}); });
   current_ = true;
@@ -272,9 +285,9 @@ void CrossingFinder::find_normals(const double *x)
   for (int fan : near_.near_owned()) {
     PlainVector sum{0, 0, 0};
     for (int n = triangles.begin[fan]; n < triangles.begin[fan + 1]; ++n)
-      sum = sum + twice_area(x, scene_.triangles[triangles.number[n]]);
+      sum = sum + twice_area(x, (*scene_.triangles)[triangles.number[n]]);
     normal_[fan].line = unit(sum);
-    normal_[fan].along = along(fan, normal_[fan].line);
+    normal_[fan].along = near_.held().along(fan, normal_[fan].line);
   }
 }
 
@@ -309,12 +322,13 @@ void CrossingFinder::try_fan_lines(Listed &listed) const
 {
   const auto [first, second] = listed.pair;
   const Normal &one = normal_[first], &other = normal_[second];
-  keep_line(listed, one.line, one.along, along(second, one.line));
+  const HeldBodies &held = near_.held();
+  keep_line(listed, one.line, one.along, held.along(second, one.line));
   if (listed.gap > WIDE * reach_) return;
-  keep_line(listed, other.line, along(first, other.line), other.along);
+  keep_line(listed, other.line, held.along(first, other.line), other.along);
   if (listed.gap > WIDE * reach_) return;
-  const Line between = unit(at(near_.centres().data(), first) - at(near_.centres().data(), second));
-  keep_line(listed, between, along(first, between), along(second, between));
+  const Line between = unit(held.centre(first) - held.centre(second));
+  keep_line(listed, between, held.along(first, between), held.along(second, between));
 }
 
 /* ----------------------------------------------------------------------
@@ -336,18 +350,6 @@ void CrossingFinder::try_line(Listed &listed, const double *x, Line line) const
 }
 
 /* ----------------------------------------------------------------------
-   where the corners of a fan were when pairs were listed
-------------------------------------------------------------------------- */
-
-Bounds CrossingFinder::along(int fan, PlainVector line) const
-{
-  const NumberLists &all = near_.groups();
-  return bounds(all.begin[fan], all.begin[fan + 1], [&](int n) {
-    return line.x * held_.x[n] + line.y * held_.y[n] + line.z * held_.z[n];
-  });
-}
-
-/* ----------------------------------------------------------------------
    lists pairs of triangles of two fans, unless they are beyond reach
 ------------------------------------------------------------------------- */
 
@@ -357,7 +359,7 @@ void CrossingFinder::split(const double *x, Pair fans, double reach)
   find_spheres(x, fans.second);
   for (int n = all.begin[fans.first]; n < all.begin[fans.first + 1]; ++n) {
     const int triangle = all.number[n];
-    const Sphere own = sphere_around(x, scene_.triangles[triangle]);
+    const Sphere own = sphere_around(x, (*scene_.triangles)[triangle]);
     for (const Sphere &sphere : spheres_) {
       const PlainVector apart = own.centre - sphere.centre;
       const double far = reach + own.radius + sphere.radius;
@@ -371,14 +373,15 @@ void CrossingFinder::find_spheres(const double *x, int fan)
   const NumberLists &all = near_.fans().triangles;
   spheres_.clear();
   for (int n = all.begin[fan]; n < all.begin[fan + 1]; ++n) {
-    spheres_.push_back(sphere_around(x, scene_.triangles[all.number[n]]));
+    spheres_.push_back(sphere_around(x, (*scene_.triangles)[all.number[n]]));
     spheres_.back().triangle = all.number[n];
   }
 }
 
 void CrossingFinder::consider(const double *x, Pair pair, double reach)
 {
-  const Triangle &first = scene_.triangles[pair.first], &second = scene_.triangles[pair.second];
+  const Triangle &first = (*scene_.triangles)[pair.first],
+                 &second = (*scene_.triangles)[pair.second];
   if (!is_here(is_owned(pair.first), is_owned(pair.second), first.surface, second.surface)) return;
   if (first.surface == second.surface && (share_corner(first, second) || !scene_.tested(pair)))
     return;
@@ -408,11 +411,9 @@ bool CrossingFinder::is_here(bool first_owned, bool second_owned, Surface first,
 
 std::size_t CrossingFinder::bytes() const
 {
-  return (start_.capacity() + end_.capacity()) * sizeof(double) + near_.bytes() + motion_.bytes() +
-         held_.bytes() + normal_.capacity() * sizeof(Normal) +
-         spheres_.capacity() * sizeof(Sphere) + listed_.capacity() * sizeof(Listed) +
-         scene_.triangles.capacity() * sizeof(Triangle) +
-         scene_.places.capacity() * sizeof(TriangleFans::Place);
+  return start_.capacity() * sizeof(double) + near_.bytes() + motion_.bytes() +
+         normal_.capacity() * sizeof(Normal) + spheres_.capacity() * sizeof(Sphere) +
+         listed_.capacity() * sizeof(Listed);
 }
 
 }    // namespace rbc

@@ -29,7 +29,7 @@ class CrossingFinder {
 
   /// What to test.
   struct Scene {
-    std::vector<Triangle> triangles;
+    const std::vector<Triangle> *triangles = nullptr;    ///< must stay
     int points = 0;               ///< have positions; the corners are among them
     int owned = 0;                ///< the first points; pairs without one are left to other ranks
     double margin = 0;            ///< distance within which pairs are listed
@@ -37,18 +37,15 @@ class CrossingFinder {
     bool own_surfaces = false;    ///< surfaces cross themselves, too
     std::function<bool(Pair)> tested;    ///< whether a pair is, the same for all of two surfaces
 
-    // What is known before, if it is: the place of each triangle among the fans of its surface, and
-    // whether any triangles of two fans of one surface are tested, each fan given by one of its
-    // triangles.
-    std::vector<TriangleFans::Place> places{};
+    // What is known before, if it is: the place of each triangle among the fans of its surface,
+    // which must stay, and whether any triangles of two fans of one surface are tested, each fan
+    // given by one of its triangles.
+    const std::vector<TriangleFans::Place> *places = nullptr;
     std::function<bool(Pair)> fans_tested{};
   };
 
   /// All begins anew with a scene, or with another answer of `tested`.
   void build(Scene scene);
-
-  /// That of the last build, to be filled anew in the memory that it has. build() must follow.
-  Scene take_scene() { return std::move(scene_); }
 
   /// The positions from which a step leads on. It may be tried several times.
   void start(const double *x);
@@ -116,12 +113,13 @@ class CrossingFinder {
   NearFans near_;
 
   bool current_ = false;    ///< what is listed holds at the start of the step
-  std::vector<double> start_, end_;
+  std::vector<double> start_;
+  std::uint64_t end_ = 0;     ///< digest of where the last step that was tested led
   double reach_ = 0;          ///< distance within which pairs are listed
   double needed_ = 0;         ///< for the last step that was tested
-  double first_reach_ = 0;    ///< after a build
+  double since_build_ = 0;    ///< for the steps since the build for which earlier lists held
+  double foreseen_ = 0;       ///< for those from a build to the next
   double radius_ = 0;         ///< of the largest fan when listed
-  PointArrays held_;          ///< where the corners of all fans were when listed
   NeighborMotion motion_;
   std::vector<Listed> listed_;
 
@@ -141,7 +139,6 @@ class CrossingFinder {
   void consider(const double *x, Pair pair, double reach);
   static Line unit(PlainVector v);
   static void keep_line(Listed &listed, Line line, Bounds first, Bounds second);
-  Bounds along(int fan, PlainVector line) const;
   void try_line(Listed &listed, const double *x, Line line) const;
   bool stay_apart(const Listed &listed, const double *x);
   bool triangles_touched(Listed &listed, const double *x);

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "contact/held_bodies.h"
 #include "contact/near_triangles.h"
-#include "contact/point_arrays.h"
 #include "contact/triangle_fans.h"
 #include "geometry/spatial_bins.h"
 #include "geometry/vector_loop.h"
@@ -22,22 +22,19 @@ class NearFans {
   /// surface are a pair only with `own_surfaces`. Without the `places` of triangles in fans these
   /// are found anew.
   void build(const std::vector<NearTriangles::Triangle> &triangles,
-             const std::vector<TriangleFans::Place> &places, int points, int owned,
+             const std::vector<TriangleFans::Place> *places, int points, int owned,
              bool own_surfaces);
 
   const TriangleFans &fans() const { return fans_; }
 
-  /// The corners of each fan, some of them again, so that they are whole groups of GROUP.
-  const NumberLists &groups() const { return groups_; }
-
   bool is_owned(int fan) const { return owned_[fan] != 0; }
   Surface surface(int fan) const { return surface_[fan]; }
 
-  /// Spheres around the corners of all fans, in the order of groups(), for pairs nearer than
-  /// `reach`.
-  void bound(const PointArrays &corners, double reach);
-  double largest_radius() const { return largest_radius_; }
-  const std::vector<double> &centres() const { return centre_; }    ///< three numbers for each fan
+  /// Holds the corners of all fans at these positions, for pairs nearer than `reach`.
+  void hold(const double *x, double reach);
+
+  /// These corners.
+  const HeldBodies &held() const { return held_; }
 
   /// The fans that can be one of a pair.
   const std::vector<int> &near_owned() const { return near_owned_; }
@@ -45,13 +42,14 @@ class NearFans {
   /// Calls f(first, second) once for each pair whose spheres are nearer than the reach.
   template <typename Function> void visit_pairs(const Function &f)
   {
-    const SpatialBins bins(centre_.data(), fans_.corners.count(), reach_ + 2 * largest_radius_);
+    const double largest = held_.largest_radius();
+    const SpatialBins bins(held_.centres().data(), held_.count(), reach_ + 2 * largest);
     sort(bins);
     for (int sphere = 0; sphere < static_cast<int>(near_owned_.size()); ++sphere) {
-      const PlainVector centre{spheres_.x[sphere], spheres_.y[sphere], spheres_.z[sphere]};
+      const PlainVector centre = held_.centre(spheres_.fan[sphere]);
       bool own_row = true;
       bins.visit_half_within(
-          centre, reach_ + spheres_.radius[sphere] + largest_radius_, [&](int first, int last) {
+          centre, reach_ + spheres_.radius[sphere] + largest, [&](int first, int last) {
             const int begin = std::exchange(own_row, false) ? sphere + 1 : bin_begin_[first];
             visit_row(sphere, begin, bin_begin_[last + 1], f);
           });
@@ -63,22 +61,23 @@ class NearFans {
  private:
   static constexpr int AT_ONCE = 8;    ///< loops run on into what is no sphere any more
 
-  /// Of fans near owned ones, in the order of their bins.
+  /// Of fans near owned ones, in the order of their bins, with centres from an origin. Single
+  /// precision does, as spheres are made larger by what it may be off.
   struct Spheres {
-    std::vector<double> x, y, z, radius;
-    std::vector<std::int64_t> surface, owned;    ///< owned: 1 if a corner is
+    PlainVector origin;
+    std::vector<float> x, y, z, radius;
+    std::vector<std::int32_t> surface, owned;    ///< owned: 1 if a corner is
     std::vector<int> fan;
 
     void resize(std::size_t size);
   };
 
   TriangleFans fans_;
-  NumberLists groups_;
   bool own_surfaces_ = false;
   std::vector<char> owned_;    ///< of each fan, whether a corner is
   std::vector<Surface> surface_;
-  std::vector<double> centre_, radius_;
-  double reach_ = 0, largest_radius_ = 0;
+  HeldBodies held_;
+  double reach_ = 0;
   std::vector<int> near_owned_, bin_of_, bin_begin_, next_;
   Spheres spheres_;
 
@@ -90,24 +89,24 @@ class NearFans {
   void visit_row(int sphere, int begin, int end, const Function &f) const
   {
     const Spheres &all = spheres_;
-    const double px = all.x[sphere], py = all.y[sphere], pz = all.z[sphere],
-                 far = reach_ + all.radius[sphere];
-    const std::int64_t unseen = own_surfaces_ ? NearTriangles::NO_SURFACE : all.surface[sphere],
+    const float px = all.x[sphere], py = all.y[sphere], pz = all.z[sphere],
+                far = static_cast<float>(reach_) + all.radius[sphere];
+    const std::int32_t unseen = own_surfaces_ ? NearTriangles::NO_SURFACE : all.surface[sphere],
                        owned = all.owned[sphere];
     constexpr int most = 64;
-    std::int64_t hit[most];    // as wide as all others in the loop
+    std::int32_t hit[most];    // as wide as all others in the loop
     for (int from = begin; from < end; from += most) {
       const int count = std::min(most, end - from);
-      const double *const x = &all.x[from], *const y = &all.y[from], *const z = &all.z[from],
-                          *const radius = &all.radius[from];
-      const std::int64_t *const surface = &all.surface[from], *const here = &all.owned[from];
+      const float *const x = &all.x[from], *const y = &all.y[from], *const z = &all.z[from],
+                         *const radius = &all.radius[from];
+      const std::int32_t *const surface = &all.surface[from], *const here = &all.owned[from];
       for_each((count + AT_ONCE - 1) / AT_ONCE * AT_ONCE, [&](int n) {
-        const double dx = x[n] - px, dy = y[n] - py, dz = z[n] - pz, reached = far + radius[n];
+        const float dx = x[n] - px, dy = y[n] - py, dz = z[n] - pz, reached = far + radius[n];
         hit[n] = (dx * dx + dy * dy + dz * dz <= reached * reached) & (surface[n] != unseen) &
                  ((owned | here[n]) != 0);
       });
       for (int group = 0; group < count; group += AT_ONCE) {
-        std::int64_t any = 0;
+        std::int32_t any = 0;
         for (int n = 0; n < AT_ONCE; ++n) any |= hit[group + n];
         if (!any) continue;
         for (int n = group; n < std::min(group + AT_ONCE, count); ++n)

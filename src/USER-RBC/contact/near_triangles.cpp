@@ -20,6 +20,10 @@ namespace {
 
 constexpr double TOUCHING = 1e-10;
 
+// others are looked at when there are so many, in whole groups
+
+constexpr std::size_t OTHERS = 1024;
+
 // loops run on into what is no sphere any more, so that they have no rest that is not vectorised
 
 constexpr int LANES = 16;
@@ -69,7 +73,10 @@ void NearTriangles::build(int points, const Surface *surfaces, int corners, cons
   reach_ = range + slack;
   slack_ = slack;
   travel_ = travel;
-  find_spokes(corners);
+  around_.fill(corners, next_, [&](const auto &put) {
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      for (int v : triangles[t].corner) put(v, static_cast<int>(t));
+  });
   corners_ = corners;
   rebuild(x);
 }
@@ -255,23 +262,8 @@ void NearTriangles::add_candidates(const double *x, int point)
     if (n == 0 || found_[n].surface != found_[n - 1].surface)
       push_back_tightly(groups_, Group{point, place, 0, place, 0});
     groups_.back().end = place + 1;
-    push_back_tightly(candidates_, Candidate{rounded_down(found_[n].distance),
-                                             (*triangles_)[found_[n].triangle].corner});
+    push_back_tightly(candidates_, Candidate{rounded_down(found_[n].distance), found_[n].triangle});
   }
-}
-
-void NearTriangles::find_spokes(int corners)
-{
-  spokes_begin_.assign(corners + 1, 0);
-  for (const Triangle &triangle : *triangles_)
-    for (int v : triangle.corner) ++spokes_begin_[v + 1];
-  for (int v = 0; v < corners; ++v) spokes_begin_[v + 1] += spokes_begin_[v];
-  resize_tightly(spokes_, spokes_begin_[corners]);
-  next_.assign(spokes_begin_.begin(), spokes_begin_.end() - 1);
-  for (const Triangle &triangle : *triangles_)
-    for (int c = 0; c < 3; ++c)
-      spokes_[next_[triangle.corner[c]]++] = {triangle.corner[(c + 1) % 3],
-                                              triangle.corner[(c + 2) % 3]};
 }
 
 /* ----------------------------------------------------------------------
@@ -302,7 +294,7 @@ void NearTriangles::find_nearest(const double *x, double range)
       x, static_cast<int>(near_groups_.size()),
       [&](int n) {
         const Group &group = groups_[near_groups_[n]];
-        return std::pair(group.point, candidates_[group.nearest].corner.data());
+        return std::pair(group.point, corners(group.nearest));
       },
       [&](int n, double distance2) { groups_[near_groups_[n]].distance2 = distance2; });
 
@@ -312,12 +304,18 @@ void NearTriangles::find_nearest(const double *x, double range)
     const double far = std::min(range, std::sqrt(group.distance2)) + motion_.around(group.point);
     for (int n = group.begin; n < group.end && !(candidates_[n].distance > far); ++n)
       if (n != group.nearest) others_.push_back({g, n});
+    if (others_.size() >= OTHERS) look_at_others(x);
   }
+  look_at_others(x);
+}
+
+void NearTriangles::look_at_others(const double *x)
+{
   visit_distances(
       x, static_cast<int>(others_.size()),
       [&](int n) {
         const auto &[g, candidate] = others_[n];
-        return std::pair(groups_[g].point, candidates_[candidate].corner.data());
+        return std::pair(groups_[g].point, corners(candidate));
       },
       [&](int n, double distance2) {
         const auto &[g, candidate] = others_[n];
@@ -325,6 +323,12 @@ void NearTriangles::find_nearest(const double *x, double range)
         groups_[g].distance2 = distance2;
         groups_[g].nearest = candidate;
       });
+  others_.clear();
+}
+
+const int *NearTriangles::corners(int candidate) const
+{
+  return (*triangles_)[candidates_[candidate].triangle].corner.data();
 }
 
 const std::vector<VertexContact> &NearTriangles::contacts(const double *x, double range)
@@ -340,7 +344,7 @@ const std::vector<VertexContact> &NearTriangles::contacts(const double *x, doubl
 void NearTriangles::add_contact(const double *x, const Group &group)
 {
   const PlainVector p = at(x, group.point);
-  const std::array<int, 3> &corner = candidates_[group.nearest].corner;
+  const std::array<int, 3> &corner = (*triangles_)[candidates_[group.nearest].triangle].corner;
   const PlainVector a = at(x, corner[0]), b = at(x, corner[1]), c = at(x, corner[2]);
   const auto weight = closest_point_weights(p, a, b, c);
   const PlainVector apart = p - weighted_point(weight, a, b, c), face = cross(b - a, c - a);
@@ -365,8 +369,10 @@ void NearTriangles::visit_around(const double *x, const std::array<int, 3> &corn
 {
   const int on[2] = {corner[feature.corner[0]],
                      feature.count == 2 ? corner[feature.corner[1]] : -1};
-  for (int n = spokes_begin_[on[0]]; n < spokes_begin_[on[0] + 1]; ++n) {
-    const auto [next, last] = spokes_[n];
+  for (int n = around_.begin[on[0]]; n < around_.begin[on[0] + 1]; ++n) {
+    const std::array<int, 3> &around = (*triangles_)[around_.number[n]].corner;
+    const int place = on[0] == around[0] ? 0 : on[0] == around[1] ? 1 : 2;
+    const int next = around[(place + 1) % 3], last = around[(place + 2) % 3];
     if (feature.count == 2 && next != on[1] && last != on[1]) continue;
     f(at(x, next) - at(x, on[0]), at(x, last) - at(x, on[0]));
   }
@@ -415,10 +421,9 @@ PlainVector NearTriangles::outward(const double *x, const std::array<int, 3> &co
 std::size_t NearTriangles::bytes() const
 {
   std::size_t integers = 0;
-  for (const auto *numbers : {&spokes_begin_, &bin_begin_, &bin_of_, &next_, &hits_})
+  for (const auto *numbers : {&bin_begin_, &bin_of_, &next_, &hits_})
     integers += numbers->capacity();
-  return integers * sizeof(int) + spokes_.capacity() * sizeof(Spokes) +
-         found_.capacity() * sizeof(Found) +
+  return integers * sizeof(int) + around_.bytes() + found_.capacity() * sizeof(Found) +
          (in_bin_.capacity() + around_bin_.capacity() + scratch_.capacity()) *
              sizeof(SurfaceRange) +
          surfaces_.capacity() * sizeof(Surface) + motion_.bytes() +

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "contact/number_lists.h"
 #include "contact/relative_motion.h"
 #include "geometry/plain_vector.h"
 
@@ -78,17 +79,13 @@ class NearTriangles {
   /// A triangle and its distance when built, or a little less. Kept small: there are many.
   struct Candidate {
     float distance;
-    std::array<int, 3> corner;
+    int triangle;
   };
   /// Likewise, while those of a point are sorted.
   struct Found {
     Surface surface;
     double distance;
     int triangle;
-  };
-  /// The other corners of a triangle, right-handed.
-  struct Spokes {
-    int next, last;
   };
   struct Sphere {
     PlainVector centre;
@@ -119,8 +116,7 @@ class NearTriangles {
   std::vector<Surface> surfaces_;    // of points
   const std::vector<Triangle> *triangles_ = nullptr;
   SeesOwn sees_own_;
-  std::vector<int> spokes_begin_;
-  std::vector<Spokes> spokes_;    // of the triangles around each corner
+  NumberLists around_;    // each corner: triangles
   RelativeMotion motion_;
   int corners_ = 0;
   Spheres spheres_;
@@ -131,10 +127,9 @@ class NearTriangles {
   std::vector<Group> groups_;
   std::vector<Candidate> candidates_;
   std::vector<int> near_groups_;               // that may be in range
-  std::vector<std::pair<int, int>> others_;    // group and candidate that may be nearer
+  std::vector<std::pair<int, int>> others_;    // some groups and candidates that may be nearer
   std::vector<VertexContact> contacts_;
 
-  void find_spokes(int corners);
   static Sphere sphere_around(const double *x, const Triangle &triangle);
   double largest_radius(const double *x) const;
   void sort_spheres(const double *x, const SpatialBins &bins);
@@ -144,7 +139,9 @@ class NearTriangles {
   template <typename Pair, typename Take>
   void visit_distances(const double *x, int count, const Pair &pair, const Take &take) const;
   void add_candidates(const double *x, int point);
+  const int *corners(int candidate) const;
   void find_nearest(const double *x, double range);
+  void look_at_others(const double *x);
   void add_contact(const double *x, const Group &group);
   template <typename Function>
   void visit_around(const double *x, const std::array<int, 3> &corner,

@@ -1,5 +1,7 @@
 #include "contact/neighbor_motion.h"
 
+#include "geometry/tight_vector.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,9 +13,14 @@ namespace {
 constexpr double NEVER = std::numeric_limits<double>::max();
 constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
-PlainVector at(const std::vector<double> &x, int n)
+PlainVector at(const double *x, int n)
 {
   return {x[3 * std::size_t(n)], x[3 * std::size_t(n) + 1], x[3 * std::size_t(n) + 2]};
+}
+
+PlainVector first_place(const HeldBodies &held, int body)
+{
+  return held.centre(body) + held.offset(held.bodies().begin[body]);
 }
 
 }    // namespace
@@ -39,21 +46,19 @@ double NeighborMotion::Extent::width() const
   return std::sqrt(sum);
 }
 
-void NeighborMotion::hold(const PointArrays &positions, const NumberLists &bodies,
-                          const std::vector<double> &centres, double near)
+void NeighborMotion::hold(const HeldBodies &held, double near)
 {
-  held_ = &positions;
-  bodies_ = &bodies;
-  bins_.emplace(centres.data(), bodies.count(), near);
-  bin_.resize(bodies.count());
-  for (int b = 0; b < bodies.count(); ++b) bin_[b] = bins_->of(at(centres, b));
+  held_ = &held;
+  bins_.emplace(held.centres().data(), held.count(), near);
+  resize_tightly(bin_, held.count());
+  for (int b = 0; b < held.count(); ++b) bin_[b] = bins_->of(held.centre(b));
   strain_ = 0;
   widths_ = {0, 0, 0};
-  if (bodies.count() == 0) return;
+  if (held.count() == 0) return;
   PlainVector sum{0, 0, 0};
-  for (int b = 0; b < bodies.count(); ++b) sum = sum + positions[bodies.begin[b]];
-  flow_.reset((1.0 / bodies.count()) * sum);
-  for (int b = 0; b < bodies.count(); ++b) flow_.place(positions[bodies.begin[b]]);
+  for (int b = 0; b < held.count(); ++b) sum = sum + first_place(held, b);
+  flow_.reset((1.0 / held.count()) * sum);
+  for (int b = 0; b < held.count(); ++b) flow_.place(first_place(held, b));
 }
 
 /* ----------------------------------------------------------------------
@@ -64,9 +69,8 @@ void NeighborMotion::hold(const PointArrays &positions, const NumberLists &bodie
 
 NeighborMotion::Differences NeighborMotion::differences(const double *x)
 {
-  if (!find_displacements(x)) return {INFINITE, INFINITE, INFINITE};
-  fit_flow();
-  find_extents();
+  fit_flow(x);
+  if (!find_extents(x)) return {INFINITE, INFINITE, INFINITE};
   strain_ = std::max(strain_, flow_.norm());
   widths_.near = std::max(widths_.near, width_of_neighbors());
   Extent all = Extent::of_nothing();
@@ -80,53 +84,71 @@ NeighborMotion::Differences NeighborMotion::differences(const double *x)
   return {stretched * widths_.near, stretched * widths_.wider, stretched * widths_.all};
 }
 
+void NeighborMotion::fit_flow(const double *x)
+{
+  const NumberLists &bodies = held_->bodies();
+  flow_.begin();
+  for (int b = 0; b < held_->count(); ++b) {
+    const PlainVector place = first_place(*held_, b);
+    flow_.add(place, at(x, bodies.number[bodies.begin[b]]) - place);
+  }
+  flow_.fit();
+}
+
 /* ----------------------------------------------------------------------
    returns whether all are numbers
 ------------------------------------------------------------------------- */
 
-bool NeighborMotion::find_displacements(const double *x)
-{
-  moved_.take(x, bodies_->number);
-  const double size = sum(static_cast<int>(moved_.x.size()), [this](int n) {
-    moved_.x[n] -= held_->x[n];
-    moved_.y[n] -= held_->y[n];
-    moved_.z[n] -= held_->z[n];
-    return std::abs(moved_.x[n]) + std::abs(moved_.y[n]) + std::abs(moved_.z[n]);
-  });
-  return size < NEVER;
-}
-
-void NeighborMotion::fit_flow()
-{
-  flow_.begin();
-  for (int b = 0; b < bodies_->count(); ++b)
-    flow_.add((*held_)[bodies_->begin[b]], moved_[bodies_->begin[b]]);
-  flow_.fit();
-}
-
-void NeighborMotion::find_extents()
+bool NeighborMotion::find_extents(const double *x)
 {
   extents_.assign(bins_->count(), Extent::of_nothing());
-  body_extents_.resize(bodies_->count());
-  const PointArrays &held = *held_;
+  resize_tightly(body_extents_, held_->count());
   const LinearFlow flow = flow_;
-  for (int b = 0; b < bodies_->count(); ++b) {
-    const int begin = bodies_->begin[b], end = bodies_->begin[b + 1];
+  double size = 0;
+  for (int b = 0; b < held_->count(); ++b) {
+    size += find_displacements(x, b);
+    const int begin = held_->bodies().begin[b], count = held_->bodies().begin[b + 1] - begin;
+    const PlainVector centre = held_->centre(b);
+    const double off = held_->error(b);
     Extent left;
     for (int d = 0; d < 3; ++d) {
-      const double *const moved = (d == 0 ? moved_.x : d == 1 ? moved_.y : moved_.z).data();
-      const Bounds all = bounds(begin, end, [&](int n) { return moved[n]; });
+      const double *const moved = moved_[d].data();
+      const Bounds all = bounds(0, count, [&](int n) { return moved[n]; });
       const PlainVector row = flow.row(d);
-      const Bounds rest = bounds(begin, end, [&](int n) {
-        return moved[n] - (row.x * held.x[n] + row.y * held.y[n] + row.z * held.z[n]);
+      const double carried = dot(row, centre);
+      const Bounds rest = bounds(0, count, [&](int n) {
+        const PlainVector offset = held_->offset(begin + n);
+        return moved[n] - carried - (row.x * offset.x + row.y * offset.y + row.z * offset.z);
       });
-      body_extents_[b].lo[d] = all.lowest;
-      body_extents_[b].hi[d] = all.highest;
-      left.lo[d] = rest.lowest;
-      left.hi[d] = rest.highest;
+      body_extents_[b].lo[d] = all.lowest - off;
+      body_extents_[b].hi[d] = all.highest + off;
+      left.lo[d] = rest.lowest - 2 * off;
+      left.hi[d] = rest.highest + 2 * off;
     }
     extents_[bin_[b]].add(left);
   }
+  return size < NEVER;
+}
+
+/* ----------------------------------------------------------------------
+   returns the sum of their components, without signs
+------------------------------------------------------------------------- */
+
+double NeighborMotion::find_displacements(const double *x, int body)
+{
+  const int begin = held_->bodies().begin[body], end = held_->bodies().begin[body + 1];
+  const PlainVector centre = held_->centre(body);
+  for (auto &moved : moved_)
+    if (static_cast<int>(moved.size()) < end - begin) moved.resize(end - begin);
+  double size = 0;
+  for (int n = begin; n < end; ++n) {
+    const PlainVector moved = at(x, held_->bodies().number[n]) - centre - held_->offset(n);
+    moved_[0][n - begin] = moved.x;
+    moved_[1][n - begin] = moved.y;
+    moved_[2][n - begin] = moved.z;
+    size += std::abs(moved.x) + std::abs(moved.y) + std::abs(moved.z);
+  }
+  return size;
 }
 
 /* ----------------------------------------------------------------------
@@ -155,7 +177,7 @@ double NeighborMotion::width_of_neighbors() const
 
 std::size_t NeighborMotion::bytes() const
 {
-  return moved_.bytes() + bin_.capacity() * sizeof(int) +
+  return 3 * moved_[0].capacity() * sizeof(double) + bin_.capacity() * sizeof(int) +
          (body_extents_.capacity() + extents_.capacity() + merged_.capacity()) * sizeof(Extent);
 }
 

@@ -1,8 +1,7 @@
 #pragma once
 
+#include "contact/held_bodies.h"
 #include "contact/linear_flow.h"
-#include "contact/number_lists.h"
-#include "contact/point_arrays.h"
 #include "geometry/spatial_bins.h"
 
 #include <algorithm>
@@ -16,12 +15,9 @@ namespace rbc {
 /// without the linear flow that all of them follow, in which bodies that are apart stay apart.
 class NeighborMotion {
  public:
-  /// From now on displacements count from these positions of the points of all bodies, in the order
-  /// of their lists, each of which is whole groups of GROUP. Bodies are neighbors where their
-  /// `centres`, of three numbers each, are nearer to each other than `near`. `positions` and
-  /// `bodies` must stay.
-  void hold(const PointArrays &positions, const NumberLists &bodies,
-            const std::vector<double> &centres, double near);
+  /// From now on displacements count from where these bodies, which must stay, are held. They are
+  /// neighbors where their centres are nearer to each other than `near`.
+  void hold(const HeldBodies &bodies, double near);
 
   /// Bounds of how much any points of two bodies have moved relative to each other on straight
   /// lines to the positions `x`, by way of those for which it was called since hold(). They are
@@ -62,18 +58,17 @@ class NeighborMotion {
   };
 
   std::optional<SpatialBins> bins_;
-  const NumberLists *bodies_ = nullptr;
-  std::vector<int> bin_;    ///< of each body
-  const PointArrays *held_ = nullptr;
-  PointArrays moved_;
+  const HeldBodies *held_ = nullptr;
+  std::vector<int> bin_;                                   ///< of each body
+  std::vector<double> moved_[3];                           ///< of the points of a body
   std::vector<Extent> body_extents_, extents_, merged_;    ///< extents_: of each bin, less flow_
   LinearFlow flow_;
   double strain_ = 0;       ///< norm of the flow, the largest since hold()
   Differences widths_{};    ///< likewise, of what the flow leaves
 
-  bool find_displacements(const double *x);
-  void fit_flow();
-  void find_extents();
+  void fit_flow(const double *x);
+  bool find_extents(const double *x);
+  double find_displacements(const double *x, int body);
   double width_of_neighbors() const;
 };
 

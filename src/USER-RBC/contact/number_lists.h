@@ -1,5 +1,7 @@
 #pragma once
 
+#include "geometry/tight_vector.h"
+
 #include <cstddef>
 #include <vector>
 
@@ -18,7 +20,7 @@ struct NumberLists {
     begin.assign(lists + 1, 0);
     visit([this](int list, int) { ++begin[list + 1]; });
     for (int list = 0; list < lists; ++list) begin[list + 1] += begin[list];
-    number.resize(begin[lists]);
+    resize_tightly(number, begin[lists]);
     scratch.assign(begin.begin(), begin.end() - 1);
     visit([&](int list, int value) { number[scratch[list]++] = value; });
   }

@@ -1,5 +1,7 @@
 #include "contact/triangle_fans.h"
 
+#include "geometry/tight_vector.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -25,18 +27,20 @@ void TriangleFans::find(const std::vector<NearTriangles::Triangle> &all, int poi
 std::vector<TriangleFans::Place>
 TriangleFans::places(const std::vector<NearTriangles::Triangle> &all) const
 {
-  std::vector<Place> places(all.size(), Place{0, -1, false, 0});
+  std::vector<Place> places(all.size(), Place{0, 0, 0, 0});
   for (std::size_t t = 0; t < all.size(); ++t) {
     Place &place = places[t];
-    place.fan = fan_of_[t];
-    for (int c = 0; c < 3; ++c) {
+    place.fan = static_cast<unsigned>(fan_of_[t]);
+    for (unsigned c = 0; c < 3; ++c) {
       const int v = all[t].corner[c];
-      if (nearest_[v] != place.fan) continue;
-      if (place.known < 0 || in_middle_[v]) place.known = static_cast<signed char>(c);
-      if (in_middle_[v])
-        place.by_middle = true;
-      else
+      if (nearest_[v] != fan_of_[t]) continue;
+      if (in_middle_[v]) {
+        place.by_middle = 1;
+        place.known = c;
+      } else {
+        if (!place.by_middle && place.rim == 0) place.known = c;
         place.rim |= 1u << c;
+      }
     }
   }
   return places;
@@ -50,7 +54,7 @@ void TriangleFans::join(const std::vector<NearTriangles::Triangle> &all,
                         const std::vector<Place> &places, int points)
 {
   nearest_.assign(points, -1);
-  fan_of_.resize(all.size());
+  resize_tightly(fan_of_, all.size());
   int fans = 0;
   for (std::size_t t = 0; t < all.size(); ++t) {
     if (!places[t].by_middle) continue;
@@ -137,7 +141,11 @@ void TriangleFans::collect_corners(const std::vector<NearTriangles::Triangle> &a
   for (int fan = 0; fan < triangles.count(); ++fan) {
     for (int n = triangles.begin[fan]; n < triangles.begin[fan + 1]; ++n)
       for (int v : all[triangles.number[n]].corner)
-        if (std::exchange(next_[v], fan) != fan) corners.number.push_back(v);
+        if (std::exchange(next_[v], fan) != fan) push_back_tightly(corners.number, v);
+    while (corners.number.size() % GROUP) {
+      const int again = corners.number[corners.begin.back()];
+      push_back_tightly(corners.number, again);
+    }
     corners.begin.push_back(static_cast<int>(corners.number.size()));
   }
 }

@@ -2,6 +2,7 @@
 
 #include "contact/near_triangles.h"
 #include "contact/number_lists.h"
+#include "geometry/vector_loop.h"
 
 #include <vector>
 
@@ -15,14 +16,14 @@ class TriangleFans {
   /// fan of a copy is known by the corner in its middle, and that by corners at the rim that have
   /// no other fan.
   struct Place {
-    int fan;              ///< of the surface
-    signed char known;    ///< the corner by which the fan of a copy is known
-    bool by_middle;       ///< it is in the middle of the fan, not at its rim
-    unsigned char rim;    ///< a bit for each corner at the rim that has no other fan
+    unsigned fan : 26;         ///< of the surface
+    unsigned known : 2;        ///< the corner by which the fan of a copy is known
+    unsigned by_middle : 1;    ///< it is in the middle of the fan, not at its rim
+    unsigned rim : 3;          ///< a bit for each corner at the rim that has no other fan
   };
 
   NumberLists triangles;    ///< of each fan
-  NumberLists corners;      ///< of each fan, each once
+  NumberLists corners;      ///< of each fan, some of them again: whole groups of GROUP
 
   /// For corners below `points`.
   void find(const std::vector<NearTriangles::Triangle> &all, int points);

@@ -11,4 +11,10 @@ inline float rounded_down(double number)
   return nearest > number ? std::nextafter(nearest, -HUGE_VALF) : nearest;
 }
 
+/// Likewise, not below.
+inline float rounded_up(double number)
+{
+  return -rounded_down(-number);
+}
+
 }    // namespace rbc

@@ -27,29 +27,29 @@ struct Bounds {
   double lowest, highest;
 };
 
-/// Bounds of f(n) for begin <= n < end, likewise, for whole groups of as many numbers as GROUP.
+/// Bounds of f(n) for begin <= n < end, likewise, for whole groups of as many numbers as GROUP, of
+/// the type Number.
 constexpr int GROUP = 4;
-template <typename Function>
+template <typename Number = double, typename Function>
 [[gnu::always_inline]] inline Bounds bounds(int begin, int end, const Function &f)
 {
-  constexpr double never = std::numeric_limits<double>::max();
-  double lowest[GROUP], highest[GROUP];
+  constexpr Number never = std::numeric_limits<Number>::max();
+  Number lowest[GROUP], highest[GROUP];
   for_each(GROUP, [&](int lane) {
     lowest[lane] = never;
     highest[lane] = -never;
   });
   for (int from = begin; from < end; from += GROUP)
     for_each(GROUP, [&](int lane) {
-      const double number = f(from + lane);
+      const Number number = f(from + lane);
       lowest[lane] = number < lowest[lane] ? number : lowest[lane];
       highest[lane] = number > highest[lane] ? number : highest[lane];
     });
-  Bounds all{lowest[0], highest[0]};
   for (int lane = 1; lane < GROUP; ++lane) {
-    all.lowest = lowest[lane] < all.lowest ? lowest[lane] : all.lowest;
-    all.highest = highest[lane] > all.highest ? highest[lane] : all.highest;
+    lowest[0] = lowest[lane] < lowest[0] ? lowest[lane] : lowest[0];
+    highest[0] = highest[lane] > highest[0] ? highest[lane] : highest[0];
   }
-  return all;
+  return {lowest[0], highest[0]};
 }
 
 }    // namespace rbc
