@@ -19,11 +19,23 @@ class LinearFlow {
 
   void place(PlainVector x) { products_.add(x - origin_, x - origin_); }
 
-  void begin() { moved_ = {}; }
+  void begin()
+  {
+    moved_ = {};
+    sum_ = {0, 0, 0};
+    squares_ = count_ = 0;
+  }
 
-  void add(PlainVector x, PlainVector displacement) { moved_.add(displacement, x - origin_); }
+  void add(PlainVector x, PlainVector displacement)
+  {
+    moved_.add(displacement, x - origin_);
+    sum_ = sum_ + displacement;
+    squares_ += dot(displacement, displacement);
+    count_ += 1;
+  }
 
-  /// None where the points lie in a plane, or if norm() were 0.5 or more.
+  /// None where the points lie in a plane, if norm() were 0.5 or more, or if it is less than a
+  /// tenth of how differently the points have moved, in squares: then it is mostly chance.
   void fit()
   {
     constexpr double flat = 1e-6;
@@ -37,7 +49,10 @@ class LinearFlow {
       return row.x * inverse.first + row.y * inverse.second + row.z * inverse.third;
     };
     matrix_ = {times(moved_.first), times(moved_.second), times(moved_.third)};
-    if (!(norm() < 0.5)) matrix_ = {};
+    const double part = dot(matrix_.first, moved_.first) + dot(matrix_.second, moved_.second) +
+                        dot(matrix_.third, moved_.third);
+    const double all = squares_ - dot(sum_, sum_) / count_;
+    if (!(norm() < 0.5 && part > 0.1 * all)) matrix_ = {};
   }
 
   /// Of the matrix that gives displacements.
@@ -68,6 +83,8 @@ class LinearFlow {
 
   PlainVector origin_{0, 0, 0};
   Rows products_, moved_, matrix_;
+  PlainVector sum_{0, 0, 0};    // of displacements
+  double squares_ = 0, count_ = 0;
 };
 
 }    // namespace rbc

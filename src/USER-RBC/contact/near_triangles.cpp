@@ -20,6 +20,10 @@ namespace {
 
 constexpr double TOUCHING = 1e-10;
 
+// the flow is fitted to each of so many points
+
+constexpr int FITTED = 8;
+
 // others are looked at when there are so many, in whole groups
 
 constexpr std::size_t OTHERS = 1024;
@@ -86,6 +90,7 @@ void NearTriangles::rebuild(const double *x)
   const double radius = largest_radius(x), far = reach_ + radius;
   const double all_corners = reach_ + 2 * radius;    // of triangles in reach are as near
   motion_.hold(x, corners_, std::max(all_corners + slack_, (all_corners + travel_) / 2));
+  hold_flow(x);
   const SpatialBins bins(x, corners_, far);
   sort_spheres(x, bins);
   find_surface_ranges(bins);
@@ -267,13 +272,51 @@ void NearTriangles::add_candidates(const double *x, int point)
 }
 
 /* ----------------------------------------------------------------------
-   a triangle with a corner further away than `near` was beyond reach by `slack`
+   Points move by a flow, A X + c, and by what it leaves of their displacements. How far apart a
+   point and a place of a triangle were when held, if they are this far apart now and the flow left
+   this difference:
+     |x - y| = |(1 + A) (X - Y) + difference| >= (1 - |A|) |X - Y| - |difference|.
 ------------------------------------------------------------------------- */
+
+double NearTriangles::held_distance(double distance, double difference) const
+{
+  return (distance + difference) / (1 - strain_);
+}
 
 double NearTriangles::largest_approach(const double *x)
 {
-  const auto [near, wider] = motion_.differences(x);
-  return std::max(near, wider - slack_);
+  fit_flow(x);
+  const double approach = approach_beyond(x, flow_);
+  return approach <= slack_ ? approach : std::min(approach, approach_beyond(x, {}));
+}
+
+/* ----------------------------------------------------------------------
+   a triangle with a corner further away than `near` was beyond reach by `slack`
+------------------------------------------------------------------------- */
+
+double NearTriangles::approach_beyond(const double *x, const LinearFlow &flow)
+{
+  strain_ = flow.norm();
+  const auto [near, wider] = motion_.differences(x, flow);
+  const double range = reach_ - slack_;
+  return std::max(held_distance(range, near), held_distance(range, wider) - slack_) - range;
+}
+
+void NearTriangles::hold_flow(const double *x)
+{
+  strain_ = 0;
+  PlainVector sum{0, 0, 0};
+  int count = 0;
+  for (int n = 0; n < corners_; n += FITTED, ++count) sum = sum + at(x, n);
+  if (count > 0) flow_.reset((1.0 / count) * sum);
+  for (int n = 0; n < corners_; n += FITTED) flow_.place(at(x, n));
+}
+
+void NearTriangles::fit_flow(const double *x)
+{
+  flow_.begin();
+  for (int n = 0; n < corners_; n += FITTED) flow_.add(motion_.held(n), at(x, n) - motion_.held(n));
+  flow_.fit();
 }
 
 /* ----------------------------------------------------------------------
@@ -287,7 +330,7 @@ void NearTriangles::find_nearest(const double *x, double range)
   near_groups_.clear();
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const Group &group = groups_[g];
-    if (candidates_[group.begin].distance <= range + motion_.around(group.point))
+    if (candidates_[group.begin].distance <= held_distance(range, motion_.around(group.point)))
       near_groups_.push_back(static_cast<int>(g));
   }
   visit_distances(
@@ -301,7 +344,8 @@ void NearTriangles::find_nearest(const double *x, double range)
   others_.clear();
   for (int g : near_groups_) {
     const Group &group = groups_[g];
-    const double far = std::min(range, std::sqrt(group.distance2)) + motion_.around(group.point);
+    const double nearer = std::min(range, std::sqrt(group.distance2));
+    const double far = held_distance(nearer, motion_.around(group.point));
     for (int n = group.begin; n < group.end && !(candidates_[n].distance > far); ++n)
       if (n != group.nearest) others_.push_back({g, n});
     if (others_.size() >= OTHERS) look_at_others(x);

@@ -55,9 +55,9 @@ class NearTriangles {
   /// The same again for other positions.
   void rebuild(const double *x);
 
-  /// By how much at most a point and a triangle in reach of it have come nearer since that: small
-  /// where both move with the same flow. A flow that carries them along is allowed to move them by
-  /// travel / 2.
+  /// By how much at most a point and a triangle that are in range of each other have come nearer
+  /// since that: small where both move with the same flow, even if it shears them. It may move them
+  /// by travel / 2.
   double largest_approach(const double *x);
 
   /// All points nearer than range to a surface: one contact for each such surface. Rebuilds if it
@@ -118,6 +118,8 @@ class NearTriangles {
   SeesOwn sees_own_;
   NumberLists around_;    // each corner: triangles
   RelativeMotion motion_;
+  LinearFlow flow_;      // of all points
+  double strain_ = 0;    // norm of the flow for which motion_ was last asked
   int corners_ = 0;
   Spheres spheres_;
   std::vector<SurfaceRange> in_bin_, around_bin_, scratch_;    // around: with the bins next to it
@@ -132,6 +134,10 @@ class NearTriangles {
 
   static Sphere sphere_around(const double *x, const Triangle &triangle);
   double largest_radius(const double *x) const;
+  void hold_flow(const double *x);
+  void fit_flow(const double *x);
+  double approach_beyond(const double *x, const LinearFlow &flow);
+  double held_distance(double distance, double difference) const;
   void sort_spheres(const double *x, const SpatialBins &bins);
   void find_surface_ranges(const SpatialBins &bins);
   void find_hits(const SpatialBins &bins, PlainVector point, Surface unseen, double far);

@@ -38,15 +38,17 @@ void RelativeMotion::hold(const double *x, int points, double near)
         {held_[3 * std::size_t(n)], held_[3 * std::size_t(n) + 1], held_[3 * std::size_t(n) + 2]});
 }
 
-RelativeMotion::Differences RelativeMotion::differences(const double *x)
+RelativeMotion::Differences RelativeMotion::differences(const double *x, const LinearFlow &flow)
 {
   const std::size_t bins = std::size_t(count_[0]) * count_[1] * count_[2];
   extents_.assign(bins, {{NEVER, NEVER, NEVER}, {-NEVER, -NEVER, -NEVER}});
+  const PlainVector row[3] = {flow.row(0), flow.row(1), flow.row(2)};
   bool numbers = true;
   for (std::size_t n = 0; n < bin_.size(); ++n) {
     Extent &extent = extents_[bin_[n]];
+    const PlainVector held{held_[3 * n], held_[3 * n + 1], held_[3 * n + 2]};
     for (int d = 0; d < 3; ++d) {
-      const double moved = x[3 * n + d] - held_[3 * n + d];
+      const double moved = x[3 * n + d] - held_[3 * n + d] - dot(row[d], held);
       numbers &= std::abs(moved) < NEVER;
       extent.lo[d] = std::min(extent.lo[d], moved);
       extent.hi[d] = std::max(extent.hi[d], moved);

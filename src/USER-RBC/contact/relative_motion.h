@@ -1,5 +1,7 @@
 #pragma once
 
+#include "contact/linear_flow.h"
+
 #include <vector>
 
 namespace rbc {
@@ -10,17 +12,23 @@ class RelativeMotion {
   /// Positions, three numbers for each point, from which displacements count.
   void hold(const double *x, int points, double near);
 
-  /// Bounds of the difference of the displacements of any two points: infinite if one is not a
-  /// number.
+  /// Bounds of the difference of the displacements of any two points, less those of a flow that
+  /// moves all of them: infinite if one is not a number.
   struct Differences {
     double near;     ///< where they were nearer than `near`
     double wider;    ///< where they were nearer than twice that
   };
-  Differences differences(const double *x);
+  Differences differences(const double *x, const LinearFlow &flow = {});
 
   /// Bound of the difference, when last asked for and finite, to any point that was nearer than
   /// `near`; 0 after hold().
   double around(int point) const { return around_[bin_[point]]; }
+
+  PlainVector held(int point) const
+  {
+    const double *const at = &held_[3 * std::size_t(point)];
+    return {at[0], at[1], at[2]};
+  }
 
   std::size_t bytes() const;
 
