@@ -291,7 +291,8 @@ double NearTriangles::largest_approach(const double *x)
 }
 
 /* ----------------------------------------------------------------------
-   a triangle with a corner further away than `near` was beyond reach by `slack`
+   A triangle with a corner further away than `near` was beyond reach by `slack`. A closer bound is
+   looked for where the first is too large.
 ------------------------------------------------------------------------- */
 
 double NearTriangles::approach_beyond(const double *x, const LinearFlow &flow)
@@ -299,7 +300,11 @@ double NearTriangles::approach_beyond(const double *x, const LinearFlow &flow)
   strain_ = flow.norm();
   const auto [near, wider] = motion_.differences(x, flow);
   const double range = reach_ - slack_;
-  return std::max(held_distance(range, near), held_distance(range, wider) - slack_) - range;
+  const double approach = held_distance(range, near) - range,
+               of_wider = held_distance(range, wider) - range - slack_;
+  if (std::max(approach, of_wider) <= slack_ || !(of_wider <= slack_))
+    return std::max(approach, of_wider);
+  return std::max(held_distance(range, motion_.closer_difference(x, flow)) - range, of_wider);
 }
 
 void NearTriangles::hold_flow(const double *x)

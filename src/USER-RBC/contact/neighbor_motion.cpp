@@ -25,27 +25,6 @@ PlainVector first_place(const HeldBodies &held, int body)
 
 }    // namespace
 
-NeighborMotion::Extent NeighborMotion::Extent::of_nothing()
-{
-  return {{NEVER, NEVER, NEVER}, {-NEVER, -NEVER, -NEVER}};
-}
-
-void NeighborMotion::Extent::add(const Extent &other)
-{
-  for (int d = 0; d < 3; ++d) {
-    lo[d] = std::min(lo[d], other.lo[d]);
-    hi[d] = std::max(hi[d], other.hi[d]);
-  }
-}
-
-double NeighborMotion::Extent::width() const
-{
-  if (empty()) return 0;
-  double sum = 0;
-  for (int d = 0; d < 3; ++d) sum += (hi[d] - lo[d]) * (hi[d] - lo[d]);
-  return std::sqrt(sum);
-}
-
 void NeighborMotion::hold(const HeldBodies &held, double near)
 {
   held_ = &held;
@@ -72,7 +51,7 @@ NeighborMotion::Differences NeighborMotion::differences(const double *x)
   fit_flow(x);
   if (!find_extents(x)) return {INFINITE, INFINITE, INFINITE};
   strain_ = std::max(strain_, flow_.norm());
-  widths_.near = std::max(widths_.near, width_of_neighbors());
+  widths_.near = std::max(widths_.near, largest_width_of_neighbors(*bins_, extents_));
   Extent all = Extent::of_nothing();
   for (const Extent &extent : extents_) all.add(extent);
   widths_.all = std::max(widths_.all, all.width());
@@ -149,30 +128,6 @@ double NeighborMotion::find_displacements(const double *x, int body)
     size += std::abs(moved.x) + std::abs(moved.y) + std::abs(moved.z);
   }
   return size;
-}
-
-/* ----------------------------------------------------------------------
-   each bin with each of its neighbors: closer than all of them together
-------------------------------------------------------------------------- */
-
-double NeighborMotion::width_of_neighbors() const
-{
-  double largest = 0;
-  for (int k = 0; k < bins_->count(2); ++k)
-    for (int j = 0; j < bins_->count(1); ++j)
-      for (int i = 0; i < bins_->count(0); ++i) {
-        const Extent &own = extents_[bins_->index(i, j, k)];
-        if (own.empty()) continue;
-        bins_->visit_half(i, j, k, [&](int first, int last) {
-          for (int other = first; other <= last; ++other) {
-            if (extents_[other].empty()) continue;
-            Extent both = own;
-            both.add(extents_[other]);
-            largest = std::max(largest, both.width());
-          }
-        });
-      }
-  return largest;
 }
 
 std::size_t NeighborMotion::bytes() const

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "contact/displacement_extents.h"
 #include "contact/held_bodies.h"
 #include "contact/linear_flow.h"
 #include "geometry/spatial_bins.h"
@@ -47,15 +48,7 @@ class NeighborMotion {
   std::size_t bytes() const;
 
  private:
-  /// Displacements of several points.
-  struct Extent {
-    double lo[3], hi[3];
-
-    static Extent of_nothing();
-    void add(const Extent &other);
-    bool empty() const { return lo[0] > hi[0]; }
-    double width() const;
-  };
+  using Extent = DisplacementExtent;
 
   std::optional<SpatialBins> bins_;
   const HeldBodies *held_ = nullptr;
@@ -69,7 +62,6 @@ class NeighborMotion {
   void fit_flow(const double *x);
   bool find_extents(const double *x);
   double find_displacements(const double *x, int body);
-  double width_of_neighbors() const;
 };
 
 }    // namespace rbc

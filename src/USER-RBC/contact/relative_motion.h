@@ -1,7 +1,9 @@
 #pragma once
 
+#include "contact/displacement_extents.h"
 #include "contact/linear_flow.h"
 
+#include <optional>
 #include <vector>
 
 namespace rbc {
@@ -12,6 +14,12 @@ class RelativeMotion {
   /// Positions, three numbers for each point, from which displacements count.
   void hold(const double *x, int points, double near);
 
+  PlainVector held(int point) const
+  {
+    const double *const at = &held_[3 * std::size_t(point)];
+    return {at[0], at[1], at[2]};
+  }
+
   /// Bounds of the difference of the displacements of any two points, less those of a flow that
   /// moves all of them: infinite if one is not a number.
   struct Differences {
@@ -20,32 +28,23 @@ class RelativeMotion {
   };
   Differences differences(const double *x, const LinearFlow &flow = {});
 
-  /// Bound of the difference, when last asked for and finite, to any point that was nearer than
-  /// `near`; 0 after hold().
-  double around(int point) const { return around_[bin_[point]]; }
+  /// A closer bound where they were nearer than `near`, which takes longer to find.
+  double closer_difference(const double *x, const LinearFlow &flow);
 
-  PlainVector held(int point) const
-  {
-    const double *const at = &held_[3 * std::size_t(point)];
-    return {at[0], at[1], at[2]};
-  }
+  /// Bound of the difference, when differences() was last asked for and finite, to any point that
+  /// was nearer than `near`; 0 after hold().
+  double around(int point) const { return around_[bin_[point]]; }
 
   std::size_t bytes() const;
 
  private:
-  /// Displacements of several points.
-  struct Extent {
-    double lo[3], hi[3];
-
-    void add(const Extent &other);
-    double width() const;
-  };
-
-  int count_[3] = {0, 0, 0};    // of bins
+  std::optional<SpatialBins> bins_;
   std::vector<double> held_;
-  std::vector<int> bin_;                    // of each point
-  std::vector<Extent> extents_, merged_;    // of each bin; with its neighbors
-  std::vector<double> around_;              // width of the latter
+  std::vector<int> bin_;                                // of each point
+  std::vector<DisplacementExtent> extents_, merged_;    // of each bin; with its neighbors
+  std::vector<double> around_;                          // width of the latter
+
+  bool find_extents(const double *x, const LinearFlow &flow);
 };
 
 }    // namespace rbc
