@@ -103,8 +103,8 @@ void Flow::add_corrected(ForcedVelocity &flow)
   fill_ghosts_of(flow.to_correct, {});
   add(flow.force, 1, sheets_.of(flow.to_correct, flow.kernel, grid_, {}), brick());
   if (grid_.plates)
-    balance_correction(grid_, brick(), flow.kernel, flow.to_correct, sheets_.curvature(),
-                       flow.into_lower, flow.into_upper);
+    balance_correction(grid_, brick(), flow.kernel, flow.to_correct, flow.into_lower,
+                       flow.into_upper);
 }
 
 void Flow::solve(const Forcing &forcing)

@@ -1,6 +1,9 @@
 #include "fluid/plates.h"
 
+#include "fluid/second_differences.h"
+
 #include <algorithm>
+#include <vector>
 
 namespace fluid {
 
@@ -64,6 +67,18 @@ bool reaches(const Grid &grid, const Box &box, bool upper)
 
 }    // namespace
 
+PlateImage plate_image(const Grid &grid, int c, int k)
+{
+  for (bool upper : {false, true}) {
+    if (c == 2 && k == (upper ? grid.cells[2] : 0)) return {k, 0};
+    for (int layer = 1; layer <= planes_beyond(c, upper); ++layer) {
+      const auto [beyond, inside] = mirrored(grid, c, upper, layer);
+      if (k == beyond) return {inside, image_factor(grid, c, upper)};
+    }
+  }
+  return {k, 1};
+}
+
 void reflect_velocity(const Grid &grid, const PlateVelocities &plates, const VectorField &velocity)
 {
   const Box &box = velocity.box();
@@ -123,20 +138,22 @@ void fold_force(const Grid &grid, const VectorField &force, Real3 &lower, Real3 
 }
 
 void balance_correction(const Grid &grid, const Box &brick, KernelKind kernel,
-                        const VectorField &force, const VectorField &curvature, Real3 &lower,
-                        Real3 &upper_sum)
+                        const VectorField &force, Real3 &lower, Real3 &upper_sum)
 {
   const auto [second, fourth] = sheet_correction(kernel);
   const int n = brick.extent(0);
+  std::vector<double> curvature(n);
   for (bool upper : {false, true}) {
     if (brick.empty() || (upper ? brick.hi[2] != grid.cells[2] : brick.lo[2] != 0)) continue;
     Real3 &sum = upper ? upper_sum : lower;
     for (int c = 0; c < 3; ++c) {
       const int next = upper ? grid.cells[2] - 1 : c == 2 ? 1 : 0;
       const double step = c == 2 ? 1 : 1 - image_factor(grid, c, upper);    // at the plate
-      for (int j = brick.lo[1]; j < brick.hi[1]; ++j)
-        sum[c] += step * (fourth * sum_of(&curvature[c](brick.lo[0], j, next), n) -
+      for (int j = brick.lo[1]; j < brick.hi[1]; ++j) {
+        second_differences(force[c], brick.lo[0], j, next, n, curvature.data());
+        sum[c] += step * (fourth * sum_of(curvature.data(), n) -
                           second * sum_of(&force[c](brick.lo[0], j, next), n));
+      }
     }
   }
 }

@@ -7,6 +7,14 @@
 
 namespace fluid {
 
+/// What plane k of component c is at a plate or beyond it: `factor` times another plane, 0 times on
+/// the plate for the component across it. Elsewhere it is itself.
+struct PlateImage {
+  int plane;
+  double factor;
+};
+PlateImage plate_image(const Grid &grid, int c, int k);
+
 /// Extends the velocity beyond the plates by its mirror image, as image_factor() tells: without
 /// slip the reflection is odd about the plate's velocity, which the fluid thus has on the plate.
 /// Acts on this rank's part only; call it after the halo is filled.
@@ -20,11 +28,10 @@ void fold_force(const Grid &grid, const VectorField &force, Real3 &lower, Real3 
 
 /// A force f that was folded and then corrected to f - C_2 D f + C_4 D D f, as the velocity of sheets
 /// is, has another sum than f: differences across a plate do not cancel. `lower` and `upper` gain
-/// what is missing, so that grid and plates together receive the same as before. `curvature` is D f.
-/// Acts on this rank's brick only.
+/// what is missing, so that grid and plates together receive the same as before. The ghosts of the
+/// force must be filled. Acts on this rank's brick only.
 void balance_correction(const Grid &grid, const Box &brick, KernelKind kernel,
-                        const VectorField &force, const VectorField &curvature, Real3 &lower,
-                        Real3 &upper);
+                        const VectorField &force, Real3 &lower, Real3 &upper);
 
 /// Source at centres of cells, spread beyond a plate, is folded back onto its image.
 void fold_source(const Grid &grid, const ScalarField &source);

@@ -1,31 +1,13 @@
 #include "fluid/sheet_velocity.h"
 
 #include "fluid/plates.h"
+#include "fluid/second_differences.h"
 
 #include <algorithm>
 
 namespace fluid {
 
 namespace {
-
-/// Calls `add(c, j, k, result, at, row, plane, n)` for each component c and each row (j, k) of
-/// `box`: n cells of two arrays. A neighbor in y is `row` numbers further, one in z `plane`.
-template <class Add>
-void for_each_line(const Box &box, const VectorField &from, const VectorField &to, Add add)
-{
-  const std::ptrdiff_t row = from.box().extent(0), plane = row * from.box().extent(1);
-  const int first = box.lo[0], n = box.extent(0);
-  for (int c = 0; c < 3; ++c)
-    for_each_row(box, [&, read = from[c], written = to[c]](int j, int k) {
-      add(c, j, k, &written(first, j, k), &read(first, j, k), row, plane, n);
-    });
-}
-
-/// Sum of the values of the six neighbors.
-inline double around(const double *at, std::ptrdiff_t row, std::ptrdiff_t plane)
-{
-  return at[-1] + at[1] + at[-row] + at[row] + at[-plane] + at[plane];
-}
 
 Box between_plates(Box box, const Grid &grid)
 {
@@ -51,30 +33,56 @@ Box without_layers(Box box, const Grid &grid, int layers)
 const VectorField &SheetVelocity::of(const VectorField &velocity, KernelKind kernel,
                                      const Grid &grid, const PlateVelocities &plates)
 {
+  const Box &box = velocity.box();
+  const std::ptrdiff_t row = box.extent(0);
   if (!result_.bytes()) {
-    curvature_ = VectorField(velocity.box());
-    result_ = VectorField(velocity.box());
+    result_ = VectorField(box);
+    for (auto &plane : curvature_) plane.resize(std::size_t(row) * box.extent(1));
   }
-  const Box once = between_plates(without_layers(velocity.box(), grid, 1), grid);
-  for_each_line(once, velocity, curvature_,
-                [](int, int, int, double *sum, const double *u, std::ptrdiff_t row,
-                   std::ptrdiff_t plane, int n) {
-                  for (int i = 0; i < n; ++i) sum[i] = around(u + i, row, plane) - 6 * u[i];
-                });
-  if (grid.plates) reflect_velocity(grid, {}, curvature_);
-
   const auto [second, fourth] = sheet_correction(kernel);
   const double middle = second + 6 * fourth, next = fourth;
-  const Box twice = between_plates(without_layers(velocity.box(), grid, layers), grid);
-  for_each_line(twice, curvature_, result_,
-                [&](int c, int j, int k, double *result, const double *bent, std::ptrdiff_t row,
-                    std::ptrdiff_t plane, int n) {
-                  const double *const u = &velocity[c](twice.lo[0], j, k);
-                  for (int i = 0; i < n; ++i)
-                    result[i] = u[i] - middle * bent[i] + next * around(bent + i, row, plane);
-                });
+  const Box once = between_plates(without_layers(box, grid, 1), grid);
+  const Box twice = between_plates(without_layers(box, grid, layers), grid);
+  const int first = twice.lo[0], n = twice.extent(0);
+  if (twice.empty()) return result_;
+  for (int c = 0; c < 3; ++c) {
+    const View<double> u = velocity[c], result = result_[c];
+    for (int k = twice.lo[2] - 1; k <= twice.lo[2]; ++k) find_curvature(u, c, k, once, grid);
+    for (int k = twice.lo[2]; k < twice.hi[2]; ++k) {
+      find_curvature(u, c, k + 1, once, grid);
+      for (int j = twice.lo[1]; j < twice.hi[1]; ++j) {
+        const std::ptrdiff_t at = box.offset(first, j, box.lo[2]);
+        const double *const bent = curvature(k) + at, *const below = curvature(k - 1) + at,
+                            *const above = curvature(k + 1) + at, *const from = &u(first, j, k);
+        double *const to = &result(first, j, k);
+#pragma omp simd
+        for (int i = 0; i < n; ++i) {
+          const double around =
+              bent[i - 1] + bent[i + 1] + bent[i - row] + bent[i + row] + below[i] + above[i];
+          to[i] = from[i] - middle * bent[i] + next * around;
+        }
+      }
+    }
+  }
   if (grid.plates) reflect_velocity(grid, plates, result_);
   return result_;
+}
+
+/// Beyond plates the mirror image of the curvature, as of a velocity, without that of the plates.
+void SheetVelocity::find_curvature(const View<double> &u, int component, int k, const Box &once,
+                                   const Grid &grid)
+{
+  const PlateImage image = grid.plates ? plate_image(grid, component, k) : PlateImage{k, 1};
+  const int first = once.lo[0], n = once.extent(0);
+  for (int j = once.lo[1]; j < once.hi[1]; ++j) {
+    double *const bent = curvature(k) + u.box.offset(first, j, u.box.lo[2]);
+    if (image.factor == 0)
+      std::fill_n(bent, n, 0.0);
+    else
+      second_differences(u, first, j, image.plane, n, bent);
+    if (image.factor != 1)
+      for (int i = 0; i < n; ++i) bent[i] *= image.factor;
+  }
 }
 
 }    // namespace fluid

@@ -4,6 +4,8 @@
 #include "fluid/grid.h"
 #include "fluid/spreading.h"
 
+#include <vector>
+
 namespace fluid {
 
 /// Velocity with which sheets of markers move: u - C_2 D u + C_4 D D u, with D the sum of the
@@ -18,13 +20,18 @@ class SheetVelocity {
   const VectorField &of(const VectorField &velocity, KernelKind kernel, const Grid &grid,
                         const PlateVelocities &plates);
 
-  /// The sums of second differences D u of the last velocity.
-  const VectorField &curvature() const { return curvature_; }
-
-  std::size_t bytes() const { return curvature_.bytes() + result_.bytes(); }
+  std::size_t bytes() const
+  {
+    return result_.bytes() + 3 * curvature_[0].capacity() * sizeof(double);
+  }
 
  private:
-  VectorField curvature_, result_;
+  VectorField result_;
+  std::vector<double> curvature_[3];    ///< D u of three planes of a component, by k modulo 3
+
+  double *curvature(int k) { return curvature_[(k % 3 + 3) % 3].data(); }
+  void find_curvature(const View<double> &u, int component, int k, const Box &once,
+                      const Grid &grid);
 };
 
 /// What is left of a box when `layers` are taken off on all sides but beyond plates, where the
