@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace rbc {
 
 /// With the usual damping of 2/13 the fastest modes fall to 0.95 in a step. Differences of past
 /// places amplify what is left of them: somewhat stronger damping, at 1 % less stability.
-ChebyshevMethod::ChebyshevMethod(int order) : order_(order), damping_(order == 2 ? 2.0 / 13 : 0.25)
+ChebyshevMethod::ChebyshevMethod(int order, SharedWorkVectors work) :
+    order_(order), damping_(order == 2 ? 2.0 / 13 : 0.25), work_(std::move(work))
 {
 }
 
@@ -57,41 +59,46 @@ void ChebyshevMethod::step(Motion &motion, double dt, const Numbers &start, cons
                            const DisplacementHistory &past, Numbers &x, double begin, double part)
 {
   const std::size_t n = start.size();
-  for (auto *vector : {&deviation_, &before_}) vector->assign(n, 0.0);
+  Numbers &rate = (*work_)[0], &deviation = (*work_)[1], &before = (*work_)[2];
+  for (auto *vector : {&deviation, &before}) vector->assign(n, 0.0);
   x.resize(n);
-  rate_ = velocity;
+  rate = velocity;
   const auto place = [&](double at) {
-    for (std::size_t i = 0; i < n; ++i) x[i] = start[i] + deviation_[i];
+    for (std::size_t i = 0; i < n; ++i) x[i] = start[i] + deviation[i];
     past.add_to(x, past.position_weights(at * dt), 1);
   };
 
-  first_rate_ = velocity;
-  past.add_to(first_rate_, past.velocity_weights(0), -1);
-  for (std::size_t i = 0; i < n; ++i) deviation_[i] = dt * stages_[0].base * first_rate_[i];
+  if (past.steps() > 0) {
+    first_rate_ = velocity;
+    past.add_to(first_rate_, past.velocity_weights(0), -1);
+  }
+  const Numbers &first_rate = past.steps() > 0 ? first_rate_ : velocity;
+  for (std::size_t i = 0; i < n; ++i) deviation[i] = dt * stages_[0].base * first_rate[i];
   for (int j = 1; j < stages(); ++j) {
     const double at = stages_[j - 1].at;
     place(at);
-    motion.velocity(x, begin + part * at, rate_);
-    past.add_to(rate_, past.velocity_weights(at * dt), -1);
+    motion.velocity(x, begin + part * at, rate);
+    past.add_to(rate, past.velocity_weights(at * dt), -1);
     const Stage &stage = stages_[j];
     for (std::size_t i = 0; i < n; ++i) {
-      const double next = stage.mu * deviation_[i] + stage.nu * before_[i] +
-                          dt * (stage.rate * rate_[i] + stage.base * first_rate_[i]);
-      before_[i] = deviation_[i];
-      deviation_[i] = next;
+      const double next = stage.mu * deviation[i] + stage.nu * before[i] +
+                          dt * (stage.rate * rate[i] + stage.base * first_rate[i]);
+      before[i] = deviation[i];
+      deviation[i] = next;
     }
-    past.add_to(rate_, past.velocity_weights(at * dt), 1);
+    past.add_to(rate, past.velocity_weights(at * dt), 1);
   }
-  if (measures_rate_back) measure_rate_back(motion, start, velocity, x);
+  if (measures_rate_back) measure_rate_back(motion, start, velocity, x, rate);
   place(1);
 }
 
 void ChebyshevMethod::measure_rate_back(const Motion &motion, const Numbers &start,
-                                        const Numbers &velocity, const Numbers &x)
+                                        const Numbers &velocity, const Numbers &x,
+                                        const Numbers &rate)
 {
   double sums[2] = {0, 0};
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const double change = rate_[i] - velocity[i], distance = x[i] - start[i];
+    const double change = rate[i] - velocity[i], distance = x[i] - start[i];
     sums[0] -= distance * change;
     sums[1] += distance * distance;
   }
@@ -101,10 +108,7 @@ void ChebyshevMethod::measure_rate_back(const Motion &motion, const Numbers &sta
 
 std::size_t ChebyshevMethod::bytes() const
 {
-  std::size_t sum = 0;
-  for (const Numbers *vector : {&rate_, &first_rate_, &deviation_, &before_})
-    sum += vector->capacity();
-  return sum * sizeof(double);
+  return first_rate_.capacity() * sizeof(double);
 }
 
 }    // namespace rbc

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "motion/displacement_history.h"
+#include "motion/work_vectors.h"
 
 namespace rbc {
 
@@ -17,7 +18,7 @@ class ChebyshevMethod {
   static constexpr int LEAST_STAGES = 2, MOST_STAGES = 10000;
 
   /// `order` 2 or 3.
-  explicit ChebyshevMethod(int order = 2);
+  explicit ChebyshevMethod(int order = 2, SharedWorkVectors work = std::make_shared<WorkVectors>());
 
   /// Steps that a DisplacementHistory must hold.
   int past_steps() const { return order_ == 2 ? 0 : DisplacementHistory::LONGEST; }
@@ -59,13 +60,14 @@ class ChebyshevMethod {
   };
 
   void measure_rate_back(const Motion &motion, const Numbers &start, const Numbers &velocity,
-                         const Numbers &x);
+                         const Numbers &x, const Numbers &rate);
 
   int order_;
   double damping_;
   std::vector<Stage> stages_;
   double rate_back_ = 0;
-  Numbers rate_, first_rate_, deviation_, before_;
+  SharedWorkVectors work_;
+  Numbers first_rate_;    ///< third order
 };
 
 }    // namespace rbc

@@ -37,7 +37,7 @@ class Divided {
 }    // namespace
 
 RungeKuttaChebyshev::RungeKuttaChebyshev(int stages, int order) :
-    chebyshev_(order), automatic_(stages == 0)
+    chebyshev_(order, work_), automatic_(stages == 0)
 {
   chebyshev_.measures_rate_back = automatic_;
   if (stages > 0) chebyshev_.set_stages(stages);
@@ -193,7 +193,7 @@ bool RungeKuttaChebyshev::retake()
 
 std::size_t RungeKuttaChebyshev::bytes() const
 {
-  return chebyshev_.bytes() + past_.bytes() + stability_.bytes() +
+  return work_->bytes() + chebyshev_.bytes() + past_.bytes() +
          (scratch_.capacity() + velocity_.capacity()) * sizeof(double);
 }
 

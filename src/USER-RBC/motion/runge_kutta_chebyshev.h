@@ -38,9 +38,10 @@ class RungeKuttaChebyshev : public Integrator {
   std::size_t bytes() const override;
 
  private:
+  SharedWorkVectors work_ = std::make_shared<WorkVectors>();
   ChebyshevMethod chebyshev_;
   bool automatic_;
-  StabilityEstimate stability_;
+  StabilityEstimate stability_{work_};
   int retakes_ = 0;    ///< of the step that is being taken
   bool grown_ = false, sudden_ = false;
 

@@ -8,14 +8,15 @@ double SpectralRadius::estimate(Motion &motion, const Numbers &x, const Numbers 
                                 double size, Numbers &mode)
 {
   const std::size_t n = x.size();
-  displaced_.resize(n);
-  changed_ = velocity;
+  Numbers &displaced = this->displaced(), &changed = this->changed();
+  displaced.resize(n);
+  changed = velocity;
   double radius = 0;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     const double scale = size / root_mean_square(motion, mode);
-    for (std::size_t i = 0; i < n; ++i) displaced_[i] = x[i] + scale * mode[i];
-    motion.velocity(displaced_, 0, changed_);
-    for (std::size_t i = 0; i < n; ++i) mode[i] = changed_[i] - velocity[i];
+    for (std::size_t i = 0; i < n; ++i) displaced[i] = x[i] + scale * mode[i];
+    motion.velocity(displaced, 0, changed);
+    for (std::size_t i = 0; i < n; ++i) mode[i] = changed[i] - velocity[i];
     motion.complete_change(mode);
     const double before = radius;
     radius = root_mean_square(motion, mode) / size;
@@ -29,16 +30,17 @@ void SpectralRadius::suspect(const Motion &motion, const Numbers &start, const N
                              const Numbers &velocity, Numbers &mode)
 {
   const std::size_t n = start.size();
-  changed_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) changed_[i] = end[i] - start[i];
+  Numbers &changed = this->changed();
+  changed.resize(n);
+  for (std::size_t i = 0; i < n; ++i) changed[i] = end[i] - start[i];
   const double square = dot(motion, velocity, velocity);
-  const double time = square > 0 ? dot(motion, changed_, velocity) / square : 0;
-  for (std::size_t i = 0; i < n; ++i) changed_[i] -= time * velocity[i];
-  const double grown = root_mean_square(motion, changed_), known = root_mean_square(motion, mode);
+  const double time = square > 0 ? dot(motion, changed, velocity) / square : 0;
+  for (std::size_t i = 0; i < n; ++i) changed[i] -= time * velocity[i];
+  const double grown = root_mean_square(motion, changed), known = root_mean_square(motion, mode);
   if (!(grown > 0 && std::isfinite(grown))) return;
-  const double sign = dot(motion, mode, changed_) < 0 ? -1 : 1;    // they must not cancel
+  const double sign = dot(motion, mode, changed) < 0 ? -1 : 1;    // they must not cancel
   const double share = known > 0 ? sign / known : 0;
-  for (std::size_t i = 0; i < n; ++i) mode[i] = share * mode[i] + changed_[i] / grown;
+  for (std::size_t i = 0; i < n; ++i) mode[i] = share * mode[i] + changed[i] / grown;
 }
 
 }    // namespace rbc

@@ -1,6 +1,8 @@
 #pragma once
 
-#include "motion/motion.h"
+#include "motion/work_vectors.h"
+
+#include <utility>
 
 namespace rbc {
 
@@ -8,6 +10,12 @@ namespace rbc {
 /// (Sommeijer, Shampine and Verwer, J. Comput. Appl. Math. 88 (1998) 315).
 class SpectralRadius {
  public:
+  /// Uses the last two of these.
+  explicit SpectralRadius(SharedWorkVectors work = std::make_shared<WorkVectors>()) :
+      work_(std::move(work))
+  {
+  }
+
   double tolerance = 0.01;    ///< change of the estimate at which iterations end
   int max_iterations = 100;
 
@@ -27,7 +35,10 @@ class SpectralRadius {
                const Numbers &velocity, Numbers &mode);
 
  private:
-  Numbers displaced_, changed_;
+  SharedWorkVectors work_;
+
+  Numbers &displaced() { return (*work_)[2]; }
+  Numbers &changed() { return (*work_)[3]; }
 };
 
 }    // namespace rbc

@@ -79,8 +79,8 @@ bool StabilityEstimate::is_due(Motion &motion, const PointStore &store, int mode
 bool StabilityEstimate::is_exceeded(Motion &motion, const PointStore &store, int mode_vector,
                                     const StepStart &start, double bearable)
 {
-  store.load(mode_vector, mode_);
-  if (!(dot(motion, mode_, mode_) > 0)) return true;
+  store.load(mode_vector, mode());
+  if (!(dot(motion, mode(), mode()) > 0)) return true;
   spectrum_.min_iterations = 1;
   return !(SAFETY * measure(motion, start) <= bearable);
 }
@@ -88,13 +88,13 @@ bool StabilityEstimate::is_exceeded(Motion &motion, const PointStore &store, int
 void StabilityEstimate::estimate(Motion &motion, PointStore &store, int mode_vector,
                                  const StepStart &start)
 {
-  store.load(mode_vector, mode_);
-  const bool known = dot(motion, mode_, mode_) > 0;
+  store.load(mode_vector, mode());
+  const bool known = dot(motion, mode(), mode()) > 0;
   spectrum_.min_iterations = !known ? GUESS_ITERATIONS : suspected_ ? SUSPECT_ITERATIONS : 1;
   suspected_ = false;
-  if (!known) guess(motion, mode_);
+  if (!known) guess(motion, mode());
   radius_step_ = start.step;
-  if (root_mean_square(motion, mode_) == 0) {    // there are no points
+  if (root_mean_square(motion, mode()) == 0) {    // there are no points
     radius_ = 0;
     return;
   }
@@ -102,19 +102,19 @@ void StabilityEstimate::estimate(Motion &motion, PointStore &store, int mode_vec
   const double last = std::exchange(raw_radius_, measure(motion, start));
   foresee(last, start.step);
   if (!std::isfinite(radius_)) throw StepFailure("the spectral radius is not a number");
-  store.store(mode_vector, mode_);
+  store.store(mode_vector, mode());
 }
 
-/// Starts from the guess mode_, which becomes the mode. start.v is no reference for the
+/// Starts from the guess mode(), which becomes the mode. start.v is no reference for the
 /// differences: it may belong to forcing of another time, and it contains viscous forces, which are
 /// solved for less exactly than differences need. So the velocities at start.x are evaluated once
 /// more without these forces. Leaving them out is safe: they can only slow relaxation.
 double StabilityEstimate::measure(Motion &motion, const StepStart &start)
 {
   const Estimating estimating(motion);
-  velocity_ = start.v;
-  motion.velocity(start.x, 0, velocity_);
-  return spectrum_.estimate(motion, start.x, velocity_, DISPLACEMENT * length_, mode_);
+  velocity() = start.v;
+  motion.velocity(start.x, 0, velocity());
+  return spectrum_.estimate(motion, start.x, velocity(), DISPLACEMENT * length_, mode());
 }
 
 void StabilityEstimate::foresee(double last, std::int64_t step)
@@ -182,9 +182,9 @@ bool StabilityEstimate::is_sudden(const Motion &motion, const StepStart &start, 
 void StabilityEstimate::suspect(const Motion &motion, PointStore &store, int mode_vector,
                                 const StepStart &start, const Numbers &end)
 {
-  store.load(mode_vector, mode_);
-  spectrum_.suspect(motion, start.x, end, start.v, mode_);
-  store.store(mode_vector, mode_);
+  store.load(mode_vector, mode());
+  spectrum_.suspect(motion, start.x, end, start.v, mode());
+  store.store(mode_vector, mode());
   suspected_ = true;
   radius_step_ = -1;
 }

@@ -2,6 +2,7 @@
 
 #include "motion/integrator.h"
 #include "motion/spectral_radius.h"
+#include "motion/work_vectors.h"
 
 #include <algorithm>
 
@@ -15,6 +16,11 @@ namespace rbc {
 /// the estimates by 2 % in a step.
 class StabilityEstimate {
  public:
+  explicit StabilityEstimate(SharedWorkVectors work = std::make_shared<WorkVectors>()) :
+      work_(work), spectrum_(work)
+  {
+  }
+
   /// At the start of a run; points are displaced by a small part of `length`. Where a run
   /// `continues` another the estimate in use stays, so that a run in pieces is that of one piece.
   /// Where forces differ from those of the run before, the first step makes it anew if it finds a
@@ -54,11 +60,9 @@ class StabilityEstimate {
   State state() const;
   void restore(const State &state);
 
-  std::size_t bytes() const { return (mode_.capacity() + velocity_.capacity()) * sizeof(double); }
-
  private:
+  SharedWorkVectors work_;
   SpectralRadius spectrum_;
-  Numbers mode_, velocity_;
   double length_ = 0;
   double radius_ = 0, raw_radius_ = 0;    ///< with a margin; the last estimate as it was
   double least_ = 0;                      ///< radius in use at least; 0 where no step failed
@@ -69,6 +73,8 @@ class StabilityEstimate {
   int interval_ = 0;                      ///< steps between estimates; 0 before the first run
   bool doubted_ = false;                  ///< the estimate in use is that of an earlier run
 
+  Numbers &mode() { return (*work_)[0]; }
+  Numbers &velocity() { return (*work_)[1]; }
   bool is_due(Motion &motion, const PointStore &store, int mode_vector, const StepStart &start,
               double bearable);
   bool is_exceeded(Motion &motion, const PointStore &store, int mode_vector, const StepStart &start,
