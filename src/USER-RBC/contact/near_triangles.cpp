@@ -82,6 +82,7 @@ void NearTriangles::build(int points, const Surface *surfaces, int corners, cons
       for (int v : triangles[t].corner) put(v, static_cast<int>(t));
   });
   corners_ = corners;
+  others_.reserve(2 * OTHERS);
   rebuild(x);
 }
 
@@ -133,6 +134,8 @@ double NearTriangles::largest_radius(const double *x) const
 void NearTriangles::sort_spheres(const double *x, const SpatialBins &bins)
 {
   const std::size_t count = triangles_->size();
+  reserve_loosely(bin_begin_, bins.count() + 1);
+  reserve_loosely(next_, bins.count());
   bin_begin_.assign(bins.count() + 1, 0);
   resize_tightly(bin_of_, count);
   for (std::size_t t = 0; t < count; ++t) {
@@ -157,6 +160,7 @@ void NearTriangles::SurfaceRange::add(const SurfaceRange &other)
 
 void NearTriangles::find_surface_ranges(const SpatialBins &bins)
 {
+  for (auto *ranges : {&in_bin_, &around_bin_, &scratch_}) reserve_loosely(*ranges, bins.count());
   in_bin_.assign(bins.count(), {std::numeric_limits<Surface>::max(), NO_SURFACE});
   for (std::size_t t = 0; t < triangles_->size(); ++t) {
     const Surface surface = (*triangles_)[t].surface;

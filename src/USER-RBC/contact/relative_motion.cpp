@@ -1,5 +1,7 @@
 #include "contact/relative_motion.h"
 
+#include "geometry/tight_vector.h"
+
 namespace rbc {
 
 namespace {
@@ -13,6 +15,8 @@ void RelativeMotion::hold(const double *x, int points, double near)
 {
   held_.assign(x, x + 3 * std::size_t(points));
   bins_.emplace(x, points, near);
+  reserve_loosely(around_, bins_->count());
+  for (auto *extents : {&extents_, &merged_}) reserve_loosely(*extents, bins_->count());
   around_.assign(bins_->count(), 0);
   bin_.resize(points);
   for (int n = 0; n < points; ++n) bin_[n] = bins_->of(held(n));

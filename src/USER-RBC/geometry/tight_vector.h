@@ -15,6 +15,12 @@ template <typename Value> void reserve_tightly(std::vector<Value> &values, std::
   if (size > values.capacity()) values.reserve(size + size / 16);
 }
 
+/// With half as much room again, for small lists whose length changes each time.
+template <typename Value> void reserve_loosely(std::vector<Value> &values, std::size_t size)
+{
+  if (size > values.capacity()) values.reserve(size + size / 2);
+}
+
 template <typename Value> void resize_tightly(std::vector<Value> &values, std::size_t size)
 {
   reserve_tightly(values, size);
