@@ -18,7 +18,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "scripts"))
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 
 POTENTIALS = HERE.parent / "potentials"
 

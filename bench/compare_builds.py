@@ -18,7 +18,7 @@ from pathlib import Path
 TOP = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(TOP / folder) for folder in ("tests/helpers", "tests/scenes", "scripts")]
 
-import command_line
+from rbc import command_line
 import numpy as np
 from lammps_case import ENVIRONMENT, ROOT, SHEAR, attempt, in_parallel, scene
 from scene_case import example_script

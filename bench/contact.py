@@ -17,7 +17,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = str(HERE.parent / "tests" / "helpers"), str(HERE.parent / "scripts")
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 from lammps_case import POTENTIALS, run  # noqa: E402
 
 SCRIPT = """

@@ -7,7 +7,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "scripts"))
-import command_line  # noqa: E402, F401
+from rbc import command_line  # noqa: E402, F401
 import matplotlib  # noqa: E402
 
 matplotlib.use("Agg")

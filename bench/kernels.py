@@ -11,7 +11,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "scripts"))
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 
 NUMBERS = ["least", "median", "fftw_estimate", "fftw_measure"]
 UNITS = {"walled": "ns/cell", "periodic": "ns/cell", "halo": "ns/ghost cell",

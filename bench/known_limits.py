@@ -18,7 +18,7 @@ from typing import NamedTuple
 HERE = Path(__file__).resolve().parent
 TOP = HERE.parent
 sys.path.insert(0, str(TOP / "scripts"))
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 import converge  # noqa: E402
 import example_study  # noqa: E402
 import richardson  # noqa: E402

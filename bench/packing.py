@@ -15,11 +15,11 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parent / "tests" / "helpers"), str(HERE.parent / "scripts")]
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 from lammps_case import POTENTIALS, Failed, dump_line, read_template, run  # noqa: E402
-from surface_distances import least_gap  # noqa: E402
+from rbc.surface_distances import least_gap  # noqa: E402
 
 PLATES = 30.0    # um apart
 

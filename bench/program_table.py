@@ -2,7 +2,7 @@
 import subprocess
 from pathlib import Path
 
-import command_line
+from rbc import command_line
 
 HERE = Path(__file__).resolve().parent
 

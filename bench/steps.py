@@ -17,10 +17,10 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "scripts"))
 import blood_study  # noqa: E402
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 import numpy as np  # noqa: E402
 import example_study  # noqa: E402
-from read_ave_time import read_ave_time, read_table  # noqa: E402
+from rbc.tables import read_ave_time, read_table  # noqa: E402
 
 SCRIPT = HERE.parent / "examples" / "suspension" / "in.suspension"
 BOX = {"cells": 64, "gap": 15, "shape": "rbc_162", "frames": 1000000, "every": 1}

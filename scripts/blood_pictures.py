@@ -4,16 +4,16 @@ import subprocess
 import sys
 from pathlib import Path
 
-import command_line    # noqa: F401  before numpy, which may be missing
+from rbc import command_line    # noqa: F401  before numpy, which may be missing
 import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
 import blood_runs  # noqa: E402
-from plot_aggregates import COLORS  # noqa: E402
-from snapshots import surfaces  # noqa: E402
-from surface_cells import read_cell_ids, write_cells  # noqa: E402
+from rbc.aggregates import COLORS  # noqa: E402
+from rbc.snapshots import surfaces  # noqa: E402
+from rbc.surfaces import read_cell_ids, write_cells  # noqa: E402
 
 RENDER = Path(__file__).resolve().parent / "render_cells.py"
 WIDE = 26             # side of a cut-out, um

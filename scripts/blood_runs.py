@@ -8,11 +8,11 @@ from typing import NamedTuple
 import example_study    # before numpy, which may be missing
 import numpy as np
 
-import thermo_log
-from plot_aggregates import mean_classes
-from read_ave_time import read_table
-from snapshots import surfaces
-from surface_cells import read_cell_ids
+from rbc import thermo_log
+from rbc.aggregates import mean_classes
+from rbc.tables import read_table
+from rbc.snapshots import surfaces
+from rbc.surfaces import read_cell_ids
 
 SCRIPT = Path(example_study.TOP) / "examples" / "suspension" / "in.suspension"
 SECONDS = "core_seconds.txt"        # in the folder of a run

@@ -3,7 +3,7 @@ import tempfile
 from pathlib import Path
 
 import example_study
-from read_ave_time import read_table
+from rbc.tables import read_table
 
 COLUMNS = "viscosity", "core_seconds"
 

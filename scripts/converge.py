@@ -20,13 +20,13 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
-import command_line    # before numpy, which may be missing
+from rbc import command_line    # before numpy, which may be missing
 import numpy as np
 import converge_report
 import example_study
 import richardson
 import run_measures
-import thermo_log
+from rbc import thermo_log
 from scene_script import Script
 
 RECORD = "run.json"

@@ -3,7 +3,7 @@ import csv
 import itertools
 from typing import NamedTuple
 
-import command_line    # noqa: F401  before matplotlib, which may be missing
+from rbc import command_line    # noqa: F401  before matplotlib, which may be missing
 import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402

@@ -5,7 +5,7 @@ import resource
 import subprocess
 from pathlib import Path
 
-import command_line    # before numpy, which may be missing
+from rbc import command_line    # before numpy, which may be missing
 import numpy as np
 
 TOP = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")

@@ -22,7 +22,7 @@ import math
 import sys
 from pathlib import Path
 
-import command_line
+from rbc import command_line
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData

@@ -14,10 +14,10 @@ import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts"))
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 import numpy as np  # noqa: E402
 from example_study import options, run_cases, run_script  # noqa: E402
-from read_ave_time import read_csv  # noqa: E402
+from rbc.tables import read_csv  # noqa: E402
 
 
 BASE = dict(law="neo", stretch=2.5, duration=72, shape="capsule_642", dx=0.125, box=6, timestep=0.04, kernel="peskin4")

@@ -15,14 +15,14 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 import numpy as np  # noqa: E402
 import blood_runs  # noqa: E402
 import example_study  # noqa: E402
 import blood_pictures  # noqa: E402
-from read_ave_time import read_ave_time  # noqa: E402
-from surface_distances import pair_distances  # noqa: E402
-from surface_gaps import read_cells  # noqa: E402
+from rbc.tables import read_ave_time  # noqa: E402
+from rbc.surface_distances import pair_distances  # noqa: E402
+from rbc.surfaces import read_cells  # noqa: E402
 
 RATES = "10", "60", "100"                 # 1/s
 SAMPLED = 6                               # cells whose paths are written

@@ -11,16 +11,15 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 import numpy as np  # noqa: E402
-from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
 import blood_runs  # noqa: E402
 import example_study  # noqa: E402
-from plot_aggregates import COLORS, mean_classes  # noqa: E402
-from read_ave_time import read_table  # noqa: E402
-from snapshots import surfaces  # noqa: E402
-from surface_cells import ids, read_surfaces  # noqa: E402
+from rbc.aggregates import COLORS, mean_classes  # noqa: E402
+from rbc.tables import read_table  # noqa: E402
+from rbc.snapshots import surfaces  # noqa: E402
+from rbc.surfaces import read_surfaces  # noqa: E402
 
 REACHES = "300", "400", "500", "600", "700"      # nm, as in in.touching
 SHARES = "1", "2", "5", "7", "10"                # % of the surface
@@ -32,8 +31,8 @@ def write_dump(files, lengths, path):
     with open(path, "w", encoding="utf-8") as dump:
         for step, name in files:
             surface = read_surfaces(name)
-            points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
-            order = np.argsort(ids(surface, "molecule"), kind="stable")
+            points = surface.points
+            order = np.argsort(surface.data["molecule"], kind="stable")
             images = np.floor(points / lengths) * (1, 1, 0)
             wrapped = points - images * lengths
             bounds = "\n".join(f"0 {length!r}" for length in lengths.tolist())

@@ -17,10 +17,10 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 import example_study  # noqa: E402
 from blood_study import settled  # noqa: E402
-from read_ave_time import read_table  # noqa: E402
+from rbc.tables import read_table  # noqa: E402
 
 KERNELS = "roma3", "peskin4"
 HEMATOCRITS = 0.2, 0.3, 0.4, 0.45

@@ -15,11 +15,11 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 import numpy as np  # noqa: E402
 import example_study  # noqa: E402
-from read_ave_time import read_ave_time, read_table  # noqa: E402
-from snapshots import surfaces  # noqa: E402
+from rbc.tables import read_ave_time, read_table  # noqa: E402
+from rbc.snapshots import surfaces  # noqa: E402
 
 SCRIPT = HERE / "in.capillary"
 SPEEDS = 0.33, 0.65, 1.3, 1.95, 2.6, 3.9    # mean velocity of the fluid, mm/s; the cell is half as fast again

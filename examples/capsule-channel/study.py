@@ -15,11 +15,11 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = str(HERE.parents[1] / "scripts"), str(HERE.parents[1] / "potentials")
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 import numpy as np  # noqa: E402
 from example_study import POTENTIALS, options, run_cases, run_script  # noqa: E402
 from molecule_file import read_molecule  # noqa: E402
-from read_ave_time import read_table  # noqa: E402
+from rbc.tables import read_table  # noqa: E402
 
 COLUMNS = "a/R", "Ca", "cells", "time", "U", "length", "width", "pressure", "change"
 BASE = dict(ratio=0.85, Ca=0.015, cells=20)

@@ -16,10 +16,10 @@ import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts"))
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 import numpy as np  # noqa: E402
 from example_study import options, run_script, wanted  # noqa: E402
-from read_ave_time import read_ave_time  # noqa: E402
+from rbc.tables import read_ave_time  # noqa: E402
 
 CAPILLARY = (0.0375, 0.075, 0.15, 0.3, 0.6)
 BASE = dict(Ca=0.3, shape="capsule_642", dx=1 / 12, length=8, gap=8, timestep=0.005, strain=5.0,

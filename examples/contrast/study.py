@@ -16,11 +16,11 @@ import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts"))
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 import numpy as np  # noqa: E402
 from example_study import options, run_cases, run_script  # noqa: E402
-from membrane_motion import read_dump, revolutions  # noqa: E402
-from read_ave_time import read_ave_time, read_csv  # noqa: E402
+from rbc.membrane_motion import read_dump, revolutions  # noqa: E402
+from rbc.tables import read_ave_time, read_csv  # noqa: E402
 from richardson import extrapolate  # noqa: E402
 
 REFERENCES = os.path.join(HERE, "..", "reference")

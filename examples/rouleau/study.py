@@ -13,13 +13,13 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 import matplotlib  # noqa: E402
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 import example_study  # noqa: E402
-from read_ave_time import read_table  # noqa: E402
+from rbc.tables import read_table  # noqa: E402
 
 WORKS = 0.0, 3.0e-4, 1.0e-3, 3.0e-3    # pg/us^2 = mJ/m^2
 MODULUS = 70    # of the contact over the work of adhesion, 1/um: the same gap and range for all

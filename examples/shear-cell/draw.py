@@ -12,14 +12,14 @@ import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts"))
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 import matplotlib  # noqa: E402
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
-from membrane_motion import angles, read_dump  # noqa: E402
-from read_ave_time import read_ave_time  # noqa: E402
-from snapshots import picture, surfaces  # noqa: E402
+from rbc.membrane_motion import angles, read_dump  # noqa: E402
+from rbc.tables import read_ave_time  # noqa: E402
+from rbc.snapshots import picture, surfaces  # noqa: E402
 
 SNAPSHOTS = 5
 TUMBLE = 9.2  # strain of half a turn at 100 /s in plasma

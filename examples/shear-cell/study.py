@@ -13,11 +13,11 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 import numpy as np  # noqa: E402
 import example_study  # noqa: E402
-from membrane_motion import mean_motion, read_dump  # noqa: E402
-from read_ave_time import read_ave_time  # noqa: E402
+from rbc.membrane_motion import mean_motion, read_dump  # noqa: E402
+from rbc.tables import read_ave_time  # noqa: E402
 
 FLOWS = {"p10": {"rate": 10}, "p60": {"rate": 60}, "p100": {"rate": 100},
          "m60": {"rate": 60, "medium": 10}, "m100": {"rate": 100, "medium": 10}}

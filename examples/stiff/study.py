@@ -18,13 +18,13 @@ import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts"))
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 import matplotlib  # noqa: E402
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from example_study import POTENTIALS, options, run_script, wanted  # noqa: E402
-from snapshots import picture, surfaces  # noqa: E402
+from rbc.snapshots import picture, surfaces  # noqa: E402
 
 BASE = dict(rate=100, strain=11.5, timestep=1000, integrator="rkc auto", error=0, shape="rbc_362", dx=0.65, box=19.5,
             kernel="roma3", smooth="yes", place=0,

@@ -14,11 +14,11 @@ import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [os.path.join(HERE, "..", "..", folder) for folder in ("scripts", "potentials")]
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 import numpy as np  # noqa: E402
 import make_template  # noqa: E402
 from example_study import options, run_cases, run_script  # noqa: E402
-from read_ave_time import read_csv, read_table  # noqa: E402
+from rbc.tables import read_csv, read_table  # noqa: E402
 
 LAW, AREA = "mooney-rivlin ${C1} ${C2} ${h}", "${kglobal} ${klocal}"    # as in.stretch has them
 FULL = "0 15.987 19.338 30.754 38.365 47.245 67.964 87.837 108.95 130.51 150.81 172.37 192.69"

@@ -12,14 +12,14 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 import matplotlib  # noqa: E402
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 import example_study  # noqa: E402
 from blood_study import COLUMNS, measure_viscosity  # noqa: E402
-from read_ave_time import read_csv  # noqa: E402
+from rbc.tables import read_csv  # noqa: E402
 from study import SMALL_BOX, VOLUMES  # noqa: E402
 
 REFERENCE = HERE.parent / "reference" / "07c_blood_viscosity_wells_merrill1962.csv"

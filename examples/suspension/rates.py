@@ -15,7 +15,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 import matplotlib  # noqa: E402
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -24,7 +24,7 @@ import numpy as np  # noqa: E402
 import example_study  # noqa: E402
 from blood_study import mean_viscosity, run_blood, settled  # noqa: E402
 from healthy import KINDS, PLASMA, REFERENCE, WORDS, measured  # noqa: E402
-from read_ave_time import read_csv  # noqa: E402
+from rbc.tables import read_csv  # noqa: E402
 from study import SMALL_BOX, VOLUMES  # noqa: E402
 
 COLUMNS = "viscosity", "before", "core_seconds"

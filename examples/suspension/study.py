@@ -19,17 +19,17 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 import matplotlib  # noqa: E402
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 import example_study  # noqa: E402
 from blood_runs import box, history, is_finished, measures, run_piece, said  # noqa: E402
-from plot_aggregates import COLORS  # noqa: E402
-from snapshots import surfaces  # noqa: E402
-from surface_distances import pair_distances  # noqa: E402
-from surface_gaps import read_cells  # noqa: E402
+from rbc.aggregates import COLORS  # noqa: E402
+from rbc.snapshots import surfaces  # noqa: E402
+from rbc.surface_distances import pair_distances  # noqa: E402
+from rbc.surfaces import read_cells  # noqa: E402
 
 TOP = HERE.parents[1]
 SCRIPTS = TOP / "scripts"

@@ -20,12 +20,12 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 import matplotlib  # noqa: E402
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
-from membrane_motion import angles, read_dump, revolutions  # noqa: E402
+from rbc.membrane_motion import angles, read_dump, revolutions  # noqa: E402
 
 REFERENCE = HERE.parent / "reference"
 TABLE = "tank-treading.csv"

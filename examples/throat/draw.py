@@ -12,12 +12,12 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 import matplotlib  # noqa: E402
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
-from read_ave_time import read_table  # noqa: E402
+from rbc.tables import read_table  # noqa: E402
 
 BLOCKS = "v_block0", "v_block1", "v_block2"
 TITLES = "(a) straight tube", "(b) with a throat"

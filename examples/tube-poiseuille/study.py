@@ -14,12 +14,12 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "scripts"))
-import command_line  # noqa: E402
+from rbc import command_line  # noqa: E402
 import numpy as np  # noqa: E402
 import example_study  # noqa: E402
-from read_ave_time import read_ave_time  # noqa: E402
-from snapshots import surfaces  # noqa: E402
-from surface_gaps import read_cells  # noqa: E402
+from rbc.tables import read_ave_time  # noqa: E402
+from rbc.snapshots import surfaces  # noqa: E402
+from rbc.surfaces import read_cells  # noqa: E402
 
 RADIUS, DX, SPEED = 11.25, 0.6, 187.5e-6      # of in.tube-poiseuille
 DISC = 7.82                                   # diameter D of a cell at rest, um
@@ -114,8 +114,10 @@ def snapshot(surface, wall, axis, path):
     """The cells seen from the side, flow to the right; the two cells in their colors, the others
     pale."""
     import matplotlib.colors
-    from render_cells import (add_renderer, aim, ambient_occlusion, display, light, outline_actor, read_surface, refine, save,
-                              surface_actor, vtkRenderWindow)
+    from rbc.actors import read_surface, refine, surface_actor
+    from rbc.display import display
+    from rbc.rendering import (
+        add_renderer, aim, ambient_occlusion, light, save, vtkRenderWindow)
     from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
     cells = refine(read_surface(str(surface)), 1)
     molecules = np.round(vtk_to_numpy(cells.GetPointData().GetArray("molecule"))).astype(int)

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
-import cell_statistics  # noqa: E402
-from cell_statistics import Box, pair_statistics, rouleau_order  # noqa: E402
-from read_ave_time import read_table  # noqa: E402
+from rbc.cell_statistics import Box, pair_statistics, rouleau_order  # noqa: E402
+from rbc.commands import statistics  # noqa: E402
+from rbc.tables import read_table  # noqa: E402
 
 
 def box_of(lengths, boundary="ppp"):
@@ -141,7 +141,7 @@ class Command(unittest.TestCase):
             self.write(folder, centres, axes)
             printed = io.StringIO()
             with contextlib.redirect_stdout(printed):
-                cell_statistics.main([str(folder / "cell.dat"), "--box", *"0 20 0 20 0 20".split(), "--boundary", *"ppf",
+                statistics.main([str(folder / "cell.dat"), "--box", *"0 20 0 20 0 20".split(), "--boundary", *"ppf",
                                       "-o", str(folder / "out"), "--timestep", "0.1", *options])
             self.assertGreater((folder / "out.png").stat().st_size, 10000)
             return printed.getvalue(), read_table(folder / "out-pairs.dat"), read_table(folder / "out-paths.dat")
@@ -175,7 +175,7 @@ class Command(unittest.TestCase):
             self.write(folder, [centres] * 3, [axes] * 3)
             printed = io.StringIO()
             with contextlib.redirect_stdout(printed):
-                cell_statistics.main([str(folder / "cell.dat"), "--box", *"0 20 0 20 0 20".split(), "--from", "500",
+                statistics.main([str(folder / "cell.dat"), "--box", *"0 20 0 20 0 20".split(), "--from", "500",
                                       "--neighbours", "2.1", "--aggregates", str(folder / "member.dat"),
                                       "-o", str(folder / "out")])
         self.assertEqual(printed.getvalue().splitlines(),

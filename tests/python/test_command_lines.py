@@ -11,6 +11,8 @@ from contextlib import redirect_stderr
 from pathlib import Path
 from unittest.mock import patch
 
+from rbc.__main__ import COMMANDS
+
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "examples"
 BALLOON = EXAMPLES / "balloon"
@@ -68,6 +70,41 @@ class Arguments(unittest.TestCase):
         self.assertEqual(code, 2)
         self.assertIn("invalid choice: 'laws'", printed)
         self.assertFalse(Path("x").exists())
+
+
+class Package(unittest.TestCase):
+    """python3 -m rbc."""
+
+    def attempt(self, *words, python=()):
+        return attempt("-m", "rbc", *words, python=python, PYTHONPATH=str(ROOT / "scripts"))
+
+    def test_lists_its_commands(self):
+        files = {path.stem for path in (ROOT / "scripts" / "rbc" / "commands").glob("[!_]*.py")}
+        self.assertEqual(files - {"look_options"}, set(COMMANDS))
+        for words in ((), ("--help",)):
+            code, printed = self.attempt(*words)
+            self.assertEqual(code, 0)
+            for name in COMMANDS:
+                self.assertRegex(printed, f"\n  {name} ")
+
+    def test_commands_say_what_they_are_and_refuse_what_they_do_not_know(self):
+        for name in COMMANDS:
+            with self.subTest(name):
+                code, printed = self.attempt(name, "--help")
+                self.assertEqual(code, 0)
+                self.assertRegex(printed, f"^usage: rbc {name} ")
+                code, printed = self.attempt(name, "--nonsense")
+                self.assertEqual(code, 2)
+                code, printed = self.attempt(name, "--help", python=("-S",))
+                self.assertRegex(printed, f"^rbc {name}: needs the Python module ")
+        code, printed = self.attempt("nonsense")
+        self.assertEqual(code, 2)
+        self.assertRegex(printed, "^rbc: there is no command nonsense; there are ")
+
+    def test_a_reader_that_ends_early_is_no_fault(self):
+        code, printed = attempt("-c", "from rbc import command_line\nraise BrokenPipeError",
+                                PYTHONPATH=str(ROOT / "scripts"))
+        self.assertEqual((code, printed), (1, ""))
 
 
 class Modules(unittest.TestCase):

@@ -14,7 +14,7 @@ import numpy as np
 
 import converge
 import run_measures
-import thermo_log
+from rbc import thermo_log
 from scene_script import Script
 
 MESHES = "shape=cell_100,cell_200,cell_400"

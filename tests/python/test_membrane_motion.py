@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
-from membrane_motion import after_half_turns, angles, read_dump, revolutions  # noqa: E402
+from rbc.membrane_motion import after_half_turns, angles, read_dump, revolutions  # noqa: E402
 
 LONG, SHORT, TILT = 5.0, 1.5, 0.35
 STARTS = 2 * np.pi * np.arange(40) / 40

@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
-import plot_aggregates  # noqa: E402
-from plot_aggregates import mean_classes, mean_median  # noqa: E402
+from rbc.aggregates import mean_classes, mean_median  # noqa: E402
+from rbc.commands import aggregates  # noqa: E402
+from rbc.errors import InputError  # noqa: E402
 
 ROWS = 6
 
@@ -69,7 +70,7 @@ class Aggregates(unittest.TestCase):
                  ("--case", rate, str(folder / "classes.dat"), str(folder / "sizes.dat"))]
         printed = io.StringIO()
         with contextlib.redirect_stdout(printed):
-            plot_aggregates.main([*cases, "-o", str(self.folder / "out.png")])
+            aggregates.main([*cases, "-o", str(self.folder / "out.png")])
         self.assertIn("100 /s: median 2 +- 0 cells; % of aggregates from 1: 40.0, 2: 60.0, 4: 0.0", printed.getvalue())
         self.assertIn("10 /s: median 20 +- 0 cells; % of aggregates from 1: 0.0, 2: 0.0, 4: 33.3", printed.getvalue())
         self.assertGreater((self.folder / "out.png").stat().st_size, 5000)
@@ -77,7 +78,7 @@ class Aggregates(unittest.TestCase):
     def test_frames_that_are_not_there(self):
         write(self.folder, [[1]])
         for read, name in ((mean_classes, "classes.dat"), (mean_median, "sizes.dat")):
-            with self.assertRaisesRegex(SystemExit, "ends at step 0, before step 100"):
+            with self.assertRaisesRegex(InputError, "ends at step 0, before step 100"):
                 read(self.folder / name, 100)
 
 

@@ -21,7 +21,10 @@ sys.dont_write_bytecode = True
 import make_template  # noqa: E402
 import shapes  # noqa: E402
 import surface_mesh  # noqa: E402
-from read_ave_time import read_ave_time, read_csv, read_table  # noqa: E402
+from rbc.commands import plot  # noqa: E402
+from rbc.shapes import angle_to_flow  # noqa: E402
+from rbc.shear_plot import reference_series  # noqa: E402
+from rbc.tables import read_ave_time, read_csv, read_table  # noqa: E402
 
 GEODESIC = [f"{shape}_{size}.mol" for shape in ("rbc", "capsule") for size in (162, 362, 642, 2562)]
 SHIPPED = GEODESIC + ["rbc_642_spheroid95.mol", "rbc_162_spheroid98.mol", "rbc_642_spheroid98.mol", "platelet_42.mol"]
@@ -380,22 +383,15 @@ class Tables(unittest.TestCase):
         self.assertEqual(rows[1]["D"], "")
 
 
-try:
-    import plot_shear
-except ImportError:
-    plot_shear = None
-
-
-@unittest.skipUnless(plot_shear, "needs python3-matplotlib")
 class Plot(unittest.TestCase):
     def test_angle_range(self):
         axis = np.array([[1, 0, 0], [-1, 0, 0], [0, 0, 1], [0, 0, -1], [1, 5, 1], [-1, 0, 1]])
-        np.testing.assert_allclose(plot_shear.angle_to_flow(axis), [0, 0, 90, 90, 45, -45])
+        np.testing.assert_allclose(angle_to_flow(axis), [0, 0, 90, 90, 45, -45])
 
     def test_reference_series(self):
         path = ROOT / "examples/reference/02b_capsule_shear_NH_transient_D.csv"
         series = {label: (x, y) for label, x, y in
-                  plot_shear.reference_series(path, ["Ca_E=0.1"], "D")}
+                  reference_series(path, ["Ca_E=0.1"], "D")}
         self.assertEqual(len(series), 5)
         self.assertEqual(series["Pozrikidis1995"][1].tolist(), [0.11479, 0.2015, 0.3106, 0.36092])
 
@@ -406,7 +402,7 @@ class Plot(unittest.TestCase):
             cells, picture = Path(folder, "cell.dat"), Path(folder, "D.png")
             cells.write_text("# Row " + " ".join(f"c_c[{i}]" for i in columns) + "\n"
                              + "".join(f"{100 * i} 1\n{row}\n" for i, row in enumerate(rows)))
-            plot_shear.main(["--cells", str(cells), "--timestep", "2", "--shear-rate", "1e-3",
+            plot.main(["--cells", str(cells), "--timestep", "2", "--shear-rate", "1e-3",
                              "-o", str(picture)])
             self.assertEqual(picture.read_bytes()[:4], b"\x89PNG")
 

@@ -19,8 +19,8 @@ from scene_case import polyhedron, study_of
 STUDY = study_of("blood-49152")
 import blood_pictures  # noqa: E402
 import blood_runs  # noqa: E402
-from read_ave_time import read_ave_time  # noqa: E402
-from surface_cells import read_cell_ids, read_surfaces  # noqa: E402
+from rbc.tables import read_ave_time  # noqa: E402
+from rbc.surfaces import read_cell_ids, read_surfaces  # noqa: E402
 
 EXAMPLE = ROOT / "examples" / "blood-49152"
 CELLS = 12
@@ -100,7 +100,7 @@ class Small(unittest.TestCase):
         outside = blood_pictures.seen_from_outside(self.run_folder, self.folder / "seen.vtp")
         self.assertEqual(len(read_cell_ids(outside).molecules), CELLS)
         part = blood_pictures.cut_out(self.run_folder, self.folder / "part.vtp")
-        self.assertEqual(read_surfaces(part).GetNumberOfPolys(),
+        self.assertEqual(len(read_surfaces(part).triangles),
                          320 * len(read_cell_ids(part).molecules))
 
     def test_touching_counts_as_the_run_did(self):

@@ -9,7 +9,7 @@ from lammps_case import ROOT, in_parallel
 from scene_case import run_example, study_of
 
 sys.path.insert(0, str(ROOT / "scripts"))
-from read_ave_time import read_ave_time, read_table  # noqa: E402
+from rbc.tables import read_ave_time, read_table  # noqa: E402
 
 STUDY = study_of("capillary")
 

@@ -11,9 +11,9 @@ from lammps_case import ROOT
 from scene_case import run_example
 
 sys.path.insert(0, str(ROOT / "scripts"))
-import cell_statistics  # noqa: E402
-import plot_aggregates  # noqa: E402
-from read_ave_time import read_ave_time, read_table  # noqa: E402
+from rbc.aggregates import mean_classes  # noqa: E402
+from rbc.commands import statistics  # noqa: E402
+from rbc.tables import read_ave_time, read_table  # noqa: E402
 
 
 class CellStatistics(unittest.TestCase):
@@ -25,14 +25,14 @@ class CellStatistics(unittest.TestCase):
         counts = [np.unique(frame[:, 0], return_counts=True)[1] for frame in members.data]
         np.testing.assert_allclose(table["c_agg[1]"], [len(sizes) for sizes in counts])
         np.testing.assert_allclose(table["c_agg[3]"], [np.median(sizes) for sizes in counts])
-        found = plot_aggregates.mean_classes(classes)
+        found = mean_classes(classes)
         expected = [np.histogram(sizes, np.append(found.edges, np.inf))[0] for sizes in counts[1:]]
         np.testing.assert_allclose(found.aggregates, np.mean(expected, axis=0), rtol=1e-5)    # as printed
 
         # two stacks of six at the start, each with five pairs of parallel neighbours
         printed = io.StringIO()
         with contextlib.redirect_stdout(printed):
-            cell_statistics.main([str(cells), "--aggregates", str(result.path("member.dat")), "--box",
+            statistics.main([str(cells), "--aggregates", str(result.path("member.dat")), "--box",
                                   *"0 24 0 24 0 24".split(), "--boundary", *"ppf", "-o", str(result.path("statistics"))])
         start, *later = printed.getvalue().splitlines()
         self.assertEqual(start, f"step 0: rouleau order 1.0000, {2 * 10 / 22:.3f} neighbours per cell")

@@ -9,7 +9,7 @@ from lammps_case import ROOT, in_parallel, run
 from scene_case import example_script, run_example, shortened
 
 sys.path.insert(0, str(ROOT / "scripts"))
-from read_ave_time import read_table  # noqa: E402
+from rbc.tables import read_table  # noqa: E402
 
 SMALL = dict(length=4, width=2, hematocrit=0.15, dx=0.8, gradient=1e5, rate=150, step=0.02, error=5e-3, duration=0.012,
              every=1, scripts=ROOT / "scripts")

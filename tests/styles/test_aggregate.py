@@ -8,7 +8,7 @@ import numpy as np
 from lammps_case import POTENTIALS, ROOT, dump_line, in_parallel, read_template, run, scene
 
 sys.path.insert(0, str(ROOT / "scripts"))
-from read_ave_time import read_ave_time, read_table  # noqa: E402
+from rbc.tables import read_ave_time, read_table  # noqa: E402
 
 SHAPE = "rbc_162"
 GAP = 0.3

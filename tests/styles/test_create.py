@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from lammps_case import POTENTIALS, dump_line, make_template, read_template, run, scene
-from surface_distances import least_gap
+from rbc.surface_distances import least_gap
 
 COLUMNS = "id mol type x y z xu yu zu"
 CAPSULE = f"molecule capsule {POTENTIALS}/capsule_162.mol"

@@ -8,7 +8,7 @@ import unittest
 import numpy as np
 
 from lammps_case import Failed, POTENTIALS, ROOT, dump_line, read_template, run, scene
-from surface_distances import least_gap
+from rbc.surface_distances import least_gap
 
 TUBE = "region tube cylinder x 11 12 9 INF INF"
 MESH = "region tube rbc/mesh ../tube.stl shift 0 11 12"

@@ -1,6 +1,8 @@
 """Tables of thermo output in a log of LAMMPS."""
 import numpy as np
 
+from rbc.errors import InputError
+
 
 def numbers(line, count):
     """Of a line that has that many words, all of them numbers; None of another."""
@@ -25,3 +27,12 @@ def tables(text):
         elif names and (row := numbers(line, len(names))):
             found[-1][1].append(row)
     return [(names, np.array(rows)) for names, rows in found if rows]
+
+
+def read_log(path):
+    """{column: values} of each run in a log."""
+    with open(path, encoding="utf-8", errors="replace") as stream:
+        found = tables(stream.read())
+    if not found:
+        raise InputError(f"{path} holds no thermo output that begins with Step")
+    return [dict(zip(names, rows.T)) for names, rows in found]

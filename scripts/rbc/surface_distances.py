@@ -1,4 +1,5 @@
-"""Distances between closed surfaces of triangles, by all pairs of triangles that may be near each other."""
+"""Distances between closed surfaces of triangles, by all pairs of triangles that may be near each
+other."""
 
 import itertools
 
@@ -20,20 +21,22 @@ def _points_to_triangles(p, a, b, c):
 
 
 def _segments(a, b, c, d):
-    """Distance of the segments a-b and c-d: of the lines if both feet lie within, or else from an end."""
+    """Distance of the segments a-b and c-d: of the lines if both feet lie within, or else from an
+    end."""
     u, v, w = b - a, d - c, a - c
     uu, vv, uv, uw, vw = _dot(u, u), _dot(v, v), _dot(u, v), _dot(u, w), _dot(v, w)
     with np.errstate(divide="ignore", invalid="ignore"):
         s, t = (uv * vw - vv * uw) / (uu * vv - uv**2), (uu * vw - uv * uw) / (uu * vv - uv**2)
     within = (s >= 0) & (s <= 1) & (t >= 0) & (t <= 1)
-    lines = np.where(within, np.linalg.norm(w + np.nan_to_num(s)[:, None] * u - np.nan_to_num(t)[:, None] * v, axis=1),
-                     np.inf)
+    apart = w + np.nan_to_num(s)[:, None] * u - np.nan_to_num(t)[:, None] * v
+    lines = np.where(within, np.linalg.norm(apart, axis=1), np.inf)
 
     def end(p, q, direction, square):
         foot = np.clip(_dot(p - q, direction) / square, 0, 1)
         return np.linalg.norm(p - q - foot[:, None] * direction, axis=1)
 
-    return np.min([lines, end(a, c, v, vv), end(b, c, v, vv), end(c, a, u, uu), end(d, a, u, uu)], axis=0)
+    ends = end(a, c, v, vv), end(b, c, v, vv), end(c, a, u, uu), end(d, a, u, uu)
+    return np.min([lines, *ends], axis=0)
 
 
 def _cross(p, q, a, b, c):
@@ -47,7 +50,8 @@ def _cross(p, q, a, b, c):
 
 
 def triangle_distances(first, second):
-    """Of pairs of triangles, each an array (pairs, corner, coordinate); 0 where they cut each other."""
+    """Of pairs of triangles, each an array (pairs, corner, coordinate); 0 where they cut each
+    other."""
     least = np.full(len(first), np.inf)
     for one, other in ((first, second), (second, first)):
         corners = other.transpose(1, 0, 2)
@@ -56,20 +60,22 @@ def triangle_distances(first, second):
             least = np.minimum(least, _points_to_triangles(p, *corners))
             least[_cross(p, q, *corners)] = 0
     for i, j in itertools.product(range(3), repeat=2):
-        least = np.minimum(least, _segments(first[:, i], first[:, (i + 1) % 3], second[:, j], second[:, (j + 1) % 3]))
+        least = np.minimum(least, _segments(first[:, i], first[:, (i + 1) % 3],
+                                            second[:, j], second[:, (j + 1) % 3]))
     return least
 
 
 def pair_distances(cells, box, periodic, reach):
-    """Least distance of each two surfaces (lists of vertices and triangles), images too, that are nearer than `reach`;
-    cells within cells are not noticed."""
+    """Least distance of each two surfaces (lists of vertices and triangles), images too, that are
+    nearer than `reach`; cells within cells are not noticed."""
     meshes = []
     for vertices, triangles in cells:
         corners = vertices[triangles]
         middles = corners.mean(axis=1)
         size = np.linalg.norm(corners - middles[:, None], axis=2).max(axis=1)
         centre = vertices.mean(axis=0)
-        meshes.append((corners, middles, size, centre, np.linalg.norm(vertices - centre, axis=1).max()))
+        radius = np.linalg.norm(vertices - centre, axis=1).max()
+        meshes.append((corners, middles, size, centre, radius))
     images = list(itertools.product(*[(-1, 0, 1) if wraps else (0,) for wraps in periodic]))
     centres, radii = np.array([mesh[3] for mesh in meshes]), np.array([mesh[4] for mesh in meshes])
     distances = []
@@ -107,7 +113,8 @@ def _least(first, second, bound, several=200):
 
 def _inside(points, others, margin):
     """Numbers of the points in the box around the others."""
-    return np.flatnonzero(((points > others.min(axis=0) - margin) & (points < others.max(axis=0) + margin)).all(axis=1))
+    above, below = points > others.min(axis=0) - margin, points < others.max(axis=0) + margin
+    return np.flatnonzero((above & below).all(axis=1))
 
 
 def least_gap(cells, box, periodic, reach):

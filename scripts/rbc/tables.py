@@ -1,9 +1,10 @@
-#!/usr/bin/python3
 """Read the tables of a run: LAMMPS `fix ave/time`, whitespace tables and reference CSV files."""
 import re
 from typing import NamedTuple
 
 import numpy as np
+
+from rbc.errors import InputError
 
 
 class History(NamedTuple):
@@ -42,19 +43,19 @@ def read_ave_time(path):
     header = next((line.split()[2:] for line in lines if line.startswith("# Row")), None)
     lines = [line for line in lines if line.strip() and not line.startswith("#")]
     if len(lines) < 2:
-        raise ValueError(f"{path} holds no complete block")
+        raise InputError(f"{path} holds no complete block")
     rows, columns = int(lines[0].split()[1]), len(lines[1].split()) - 1
     names = tuple(header or (str(i + 1) for i in range(columns)))
     if rows < 1 or len(names) != columns:
-        raise ValueError(f"{path} is not a fix ave/time file in vector mode")
+        raise InputError(f"{path} is not a fix ave/time file in vector mode")
     blocks = len(lines) // (rows + 1)
     values = np.array(" ".join(lines[:blocks * (rows + 1)]).split(), dtype=float)
     if values.size != blocks * (2 + rows * (columns + 1)):
-        raise ValueError(f"{path}: the blocks differ in size")
+        raise InputError(f"{path}: the blocks differ in size")
     values = values.reshape(blocks, -1)
     table = values[:, 2:].reshape(blocks, rows, columns + 1)
     if np.any(values[:, 1] != rows) or np.any(table[:, :, 0] != np.arange(1, rows + 1)):
-        raise ValueError(f"{path}: the number of rows changes")
+        raise InputError(f"{path}: the number of rows changes")
     steps = values[:, 0].astype(int)
     last = np.append(steps[1:] != steps[:-1], True)
     return History(steps[last], table[last, :, 1:], names)
@@ -67,11 +68,11 @@ def read_table(path):
     rows = [line for line in lines if not line[0].startswith("#")]
     comments = [line for line in lines[:lines.index(rows[0])] if line != ["#"]] if rows else []
     if not comments:
-        raise ValueError(f"{path} needs a line '# name name ...' above its numbers")
+        raise InputError(f"{path} needs a line '# name name ...' above its numbers")
     names = " ".join(comments[-1]).lstrip("# ").split()
     values = np.array(rows, dtype=float)
     if values.shape[1] != len(names):
-        raise ValueError(f"{path}: {len(names)} names but {values.shape[1]} columns")
+        raise InputError(f"{path}: {len(names)} names but {values.shape[1]} columns")
     return dict(zip(names, values.T))
 
 

@@ -8,8 +8,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+from rbc.errors import InputError
+
 DEBIAN = {"numpy": "python3-numpy", "matplotlib": "python3-matplotlib",
-          "vtkmodules": "python3-vtk9"}
+          "vtkmodules": "python3-vtk9", "PIL": "python3-pil"}
 LINES = 5    # of what a failed program printed
 
 
@@ -19,6 +21,8 @@ def explanation(error):
     if isinstance(error, ImportError) and module in DEBIAN:
         return (f"needs the Python module {module}, which {sys.executable} does not have; "
                 f"on Debian apt-get install {DEBIAN[module]} gives it to /usr/bin/python3")
+    if isinstance(error, InputError):
+        return str(error)
     if isinstance(error, OSError) and error.filename is not None:
         return f"{os.fsdecode(error.filename)}: {error.strerror}"
     if isinstance(error, subprocess.CalledProcessError):
@@ -31,6 +35,9 @@ def explanation(error):
 
 def explain(kind, error, trace):
     """Takes the place of a traceback."""
+    if kind is BrokenPipeError:    # what reads the output, such as head, has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return
     text = explanation(error)
     if text is None:
         sys.__excepthook__(kind, error, trace)
@@ -41,11 +48,17 @@ def explain(kind, error, trace):
 sys.excepthook = explain
 
 
+def stop(program, text):
+    """Ends with what is wrong with the command line."""
+    print(f"{program}: {text}", file=sys.stderr)
+    raise SystemExit(2)
+
+
 def parser(description):
     """A parser of options that must be spelt out: a new one cannot change what a command means."""
     return argparse.ArgumentParser(
-        description=description, formatter_class=argparse.RawDescriptionHelpFormatter,
-        allow_abbrev=False)
+        prog=os.path.basename(sys.argv[0]), description=description,
+        formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
 
 
 def add_results(options):

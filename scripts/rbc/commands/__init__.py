@@ -1,0 +1,1 @@
+"""Command lines: a module for each command of `python3 -m rbc`, which its main() runs."""

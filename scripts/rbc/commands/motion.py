@@ -1,0 +1,50 @@
+"""Tumbling and tank-treading of one cell from a dump of its vertices (`dump custom ... id xu yu
+zu`).
+
+In the plane of shear (x, z) the shape turns with the long axis of the vertices' second moments, the
+membrane with the rotation that best maps the vertices from one frame to the next. A tumbling cell
+turns as one: both rates agree. A tank-treading cell keeps its shape's angle while the membrane runs
+around it. Rates are given over the shear rate; a rigid sphere turns at -1/2.
+
+The rotation that maps best is not how often the membrane goes around: on an ellipse of axes a and b
+it is 2 a b / (a^2 + b^2) of that. The frequency that experiments count, the revolutions of the
+vertices around the centre, is given beside it.
+
+Means are over whole half turns of a shape that tumbles.
+
+membrane_motion.py vertices.dump --timestep DT --shear-rate G [-o motion.dat] [--from STRAIN]
+"""
+from rbc import command_line
+import numpy as np
+
+from rbc.membrane_motion import angles, mean_motion, read_dump
+
+
+def main(arguments=None):
+    parser = command_line.parser(__doc__)
+    parser.add_argument("dump")
+    parser.add_argument("--timestep", type=float, required=True)
+    parser.add_argument("--shear-rate", type=float, required=True,
+                        help="per unit of time of the timestep")
+    parser.add_argument("--from", dest="start", type=float, default=5.0,
+                        help="strain from which to average")
+    parser.add_argument("-o", "--output",
+                        help="table of strain, theta_shape and phi_membrane in degrees")
+    arguments = parser.parse_args(arguments)
+
+    steps, positions = read_dump(arguments.dump)
+    strain = steps * arguments.timestep * arguments.shear_rate
+    shape, membrane = angles(positions)
+    if arguments.output:
+        wrapped = (np.degrees(shape) + 90) % 180 - 90
+        np.savetxt(arguments.output, np.column_stack([strain, wrapped, np.degrees(membrane)]),
+                   header="strain theta_shape phi_membrane", fmt="%.6g")
+    mean = mean_motion(strain, positions, arguments.start)
+    print(f"strain {mean['from']:.3g} to {mean['to']:.3g}: shape turns at {mean['shape']:+.4f}, "
+          f"membrane at {mean['membrane']:+.4f} of the shear rate; "
+          f"tank-treading {mean['membrane'] - mean['shape']:+.4f}; "
+          f"angle of the shape to strain {strain[-1]:.3g}: {mean['least']:.1f} to "
+          f"{mean['largest']:.1f} degrees")
+    turns = mean["revolutions"]
+    print(f"vertices go around {turns.mean():+.4f} times per strain, "
+          f"standard deviation {turns.std():.4f} over {turns.size} vertices")

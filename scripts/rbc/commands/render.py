@@ -1,0 +1,30 @@
+"""Render the closed surfaces of a .vtp or .pvtp file to a PNG, without a display.
+
+  render_cells.py cells.1000.vtp -o cells.png --box 0 32 0 32 0 24 --plates --scale-bar 8
+  render_cells.py cells.1000.pvtp -o cells.png --color tension --view 30 20
+  render_cells.py cells.1000.vtp -o cells.png --walls vessel.stl --flow velocity.1000.vtr
+
+Lengths are in the unit of the file. The view is from azimuth A (degrees from -y towards +x) and
+elevation E above the x-y plane: `--view 0 0` sees x to the right and z up.
+
+Needs the Debian packages python3-vtk9, python3-numpy and xvfb: VTK draws through an X server, and
+the script starts a private Xvfb for as long as it runs. Without Xvfb it uses $DISPLAY.
+"""
+from rbc import command_line
+from rbc.commands.look_options import add_look, parse_look
+from rbc.rendering import render
+
+
+def parse(arguments):
+    parser = command_line.parser(__doc__)
+    parser.add_argument("surface", help=".vtp or .pvtp file")
+    parser.add_argument("-o", "--output", required=True, help="PNG to write")
+    parser.add_argument("--flow", metavar="FILE",
+                        help="draw a slice of the velocity in this file of dump grid/vtk or grid")
+    add_look(parser)
+    return parse_look(parser, arguments)
+
+
+def main(arguments=None):
+    args, look = parse(arguments)
+    render(args.surface, args.output, look)
