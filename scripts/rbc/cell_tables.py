@@ -1,4 +1,5 @@
-"""Cells over time from the array of compute rbc/cell: columns by name."""
+"""Cells over time from the array of compute rbc/cell: columns by name, and as CSV."""
+import csv
 import re
 from typing import NamedTuple
 
@@ -56,3 +57,17 @@ def cells_of_array(step, array):
         raise InputError(f"compute rbc/cell has {len(CELL_COLUMNS)} columns, this array "
                          f"{array.shape[1]}")
     return Cells(np.array([step]), dict(zip(CELL_COLUMNS, np.array(array).T[:, None])))
+
+
+def write_rows(stream, columns):
+    """CSV of {name: values of all rows}."""
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(columns)
+    for row in zip(*(np.ravel(values).tolist() for values in columns.values())):
+        writer.writerow([value if isinstance(value, int) else f"{value:.10g}" for value in row])
+
+
+def rows_of_history(steps, columns):
+    """{name: values}, a row for each step and row of the blocks."""
+    shape = next(iter(columns.values())).shape
+    return {"step": np.broadcast_to(steps[:, None], shape), **columns}
