@@ -6,7 +6,7 @@
 packages=(
   build-essential cmake ninja-build ccache pkg-config ca-certificates dpkg-dev git debian-archive-keyring
   libopenmpi-dev openmpi-bin libfftw3-dev libeigen3-dev libgtest-dev libbenchmark-dev
-  python3 python3-numpy python3-matplotlib python3-vtk9 xvfb
+  python3 python3-numpy python3-matplotlib python3-pil python3-vtk9 xvfb
   python3-sphinx python3-sphinx-rtd-theme python3-myst-parser libjs-mathjax
 )
 

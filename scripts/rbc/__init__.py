@@ -16,6 +16,7 @@ HOMES = {
     "shapes": ("Shape", "angle_to_flow", "shape_of", "shapes_of"),
     "surface_distances": ("pair_distances",),
     "rendering": ("Look", "render"),
+    "movies": ("write_movie",),
     "shear_plot": ("plot_shear",),
     "aggregates": ("mean_classes", "mean_median", "plot_aggregates"),
     "cell_statistics": ("Box", "pair_statistics", "plot_statistics", "rouleau_order"),

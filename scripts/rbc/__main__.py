@@ -8,6 +8,7 @@ from rbc import command_line
 COMMANDS = {
     "csv": "tables of a run as CSV: cell.dat, logs, measures of surfaces",
     "render": "a picture of cells, with walls and a slice of the flow",
+    "movie": "pictures of a series of files of cells as a movie",
     "plot": "deformation and angles of cells in shear over time",
     "motion": "tumbling and tank-treading of a cell, from a dump of its vertices",
     "statistics": "distances, order and paths of many cells",

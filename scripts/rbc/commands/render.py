@@ -7,10 +7,15 @@
 Lengths are in the unit of the file. The view is from azimuth A (degrees from -y towards +x) and
 elevation E above the x-y plane: `--view 0 0` sees x to the right and z up.
 
+`--movie` takes any number of files and writes a movie: `python3 -m rbc movie --help`.
+
 Needs the Debian packages python3-vtk9, python3-numpy and xvfb: VTK draws through an X server, and
 the script starts a private Xvfb for as long as it runs. Without Xvfb it uses $DISPLAY.
 """
+import sys
+
 from rbc import command_line
+from rbc.commands import movie
 from rbc.commands.look_options import add_look, parse_look
 from rbc.rendering import render
 
@@ -26,5 +31,9 @@ def parse(arguments):
 
 
 def main(arguments=None):
+    arguments = sys.argv[1:] if arguments is None else arguments
+    if "--movie" in arguments:
+        movie.main([word for word in arguments if word != "--movie"])
+        return
     args, look = parse(arguments)
     render(args.surface, args.output, look)
