@@ -159,8 +159,8 @@ def plate_actors(box):
 
 
 def wall_actor(path, scale=1.0, shift=(0, 0, 0)):
-    """The far side of a vessel's surface (STL), seen through the near side; scaled and shifted as by
-    region rbc/mesh."""
+    """The far side of a vessel's surface (STL), seen through the near side; scaled and shifted as
+    by region rbc/mesh."""
     open(path, "rb").close()    # raises what is wrong, which VTK would only print
     reader = vtkSTLReader()
     reader.SetFileName(os.fspath(path))

@@ -1,6 +1,7 @@
 """Fields on the grid of the fluid, as `dump grid/vtk` (.vtr) and `dump grid` (text) write them.
 
-With several MPI tasks a text dump needs `dump_modify ID sort id`: the cells are in any order without.
+With several MPI tasks a text dump needs `dump_modify ID sort id`: the order of its cells is any
+without.
 """
 import os
 import re

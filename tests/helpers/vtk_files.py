@@ -1,14 +1,14 @@
-"""Small files as fix rbc/vtk and dump grid write them, of shapes and fields known in closed form."""
+"""Small files as fix rbc/vtk and dump grid write them, of shapes known in closed form."""
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
-from vtkmodules.util.numpy_support import vtk_to_numpy
 
 # of a cuboid, right-handed seen from outside; corners in the order of numpy's ndindex
-QUADS = np.array([(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)])
+QUADS = np.array([(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4),
+                  (1, 5, 7, 3)])
 
 
 def cuboid(sides, centre=(0, 0, 0), rotation=np.eye(3)):

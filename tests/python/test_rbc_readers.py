@@ -179,8 +179,8 @@ class Logs(Folder):
 class CellTables(Folder):
     def write(self, header):
         path = self.folder / "cell.dat"
-        path.write_text(f"# fix\n# TimeStep Number-of-rows\n# Row {header}\n0 2\n1 4 0.5\n2 9 0.25\n"
-                        "10 2\n1 4 0.75\n2 9 nan\n")
+        path.write_text(f"# fix\n# TimeStep Number-of-rows\n# Row {header}\n0 2\n1 4 0.5\n"
+                        "2 9 0.25\n10 2\n1 4 0.75\n2 9 nan\n")
         return path
 
     def test_columns_have_names(self):

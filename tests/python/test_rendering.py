@@ -78,7 +78,7 @@ class Pictures(unittest.TestCase):
             np.testing.assert_allclose(ends, (middle - 2, middle + 2), atol=0.1)
 
     def test_data_that_is_not_there(self):
-        with self.assertRaisesRegex(InputError, "no point data 'speed' in the file; there are: mol"):
+        with self.assertRaisesRegex(InputError, "no point data 'speed' in the file; there are: m"):
             self.picture(sphere(1), FRONT._replace(color="speed"))
 
 
