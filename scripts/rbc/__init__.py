@@ -17,10 +17,11 @@ HOMES = {
     "surface_distances": ("pair_distances",),
     "rendering": ("Look", "render"),
     "movies": ("write_movie",),
-    "shear_plot": ("plot_shear",),
+    "shear_plot": ("ShearLabels", "plot_shear"),
     "aggregates": ("mean_classes", "mean_median", "plot_aggregates"),
     "cell_statistics": ("Box", "pair_statistics", "plot_statistics", "rouleau_order"),
     "membrane_motion": ("mean_motion", "read_dump"),
+    "driving": ("cells_now", "start_lammps"),
     "errors": ("InputError",),
 }
 _HOME = {name: home for home, names in HOMES.items() for name in names}

@@ -42,7 +42,7 @@ class Look(NamedTuple):
     scale_bar: float = None      # length of a bar; no perspective
     unit: str = "\u00b5m"
     smooth: int = 1              # subdivisions of the triangles
-    occlusion: bool = True       # shading of narrow gaps
+    occlusion: bool = True       # shading of narrow gaps, where there is no flow
 
 
 def aim(renderer, bounds, azimuth, elevation, parallel, zoom):
@@ -213,7 +213,7 @@ def render(path, output, look=Look()):
         flow_table = scenery(renderer, look, bounds)
         light(renderer)
         aim(renderer, bounds, *look.view, bool(look.scale_bar) or look.parallel, look.zoom)
-        if look.occlusion:
+        if look.occlusion and not look.flow:    # of a flat slice it would shade parts
             ambient_occlusion(renderer, surface.GetBounds())
         if look.scale_bar:
             add_scale_bar(renderer, look.scale_bar, look.unit)

@@ -102,7 +102,7 @@ def spaced(source):
     return re.sub(r"(?<=\w)&(?=\w)", " & ", re.sub(r"(?<=[a-z])(?=\d)|(?<=\w)(?=\()", " ", source))
 
 
-class Labels(NamedTuple):
+class ShearLabels(NamedTuple):
     """Of the axes, and of the whole."""
     x: str = "time"
     y: str = "Taylor deformation D"
@@ -144,7 +144,7 @@ def draw_angles(axes, angles, count):
     axes.legend(loc="lower right", ncols=len(kinds), bbox_to_anchor=(1, 0.98), borderaxespad=0)
 
 
-def plot_shear(output, shapes, angles=(), references=(), labels=Labels(), dpi=150):
+def plot_shear(output, shapes, angles=(), references=(), labels=ShearLabels(), dpi=150):
     """A picture of lists of (label, x, y): lines of the shapes, below them those of the angles."""
     from matplotlib import rc_context
     from matplotlib.figure import Figure
@@ -158,7 +158,7 @@ def plot_shear(output, shapes, angles=(), references=(), labels=Labels(), dpi=15
                                  gridspec_kw={"height_ratios": [3, 2][:count]})[:, 0]
         draw_shapes(panels[0], shapes, references)
         panels[0].set_ylabel(labels.y)
-        if labels.y == Labels().y:
+        if labels.y == ShearLabels().y:
             panels[0].set_ylim(bottom=0)
         if angles:
             draw_angles(panels[1], angles, len(shapes))

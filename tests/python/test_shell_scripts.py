@@ -1,5 +1,6 @@
 """Scripts that build say what a machine lacks, as sudo, home, network or Debian, and leave
 nothing."""
+import os
 import shutil
 import subprocess
 import tempfile
@@ -52,9 +53,24 @@ class Machine(unittest.TestCase):
         return done.stdout
 
     def test_without_a_home(self):
-        for script in ("build.sh", "html.sh", "lammps.sh", "test.sh"):
+        for script in ("build.sh", "html.sh", "lammps.sh", "python.sh", "test.sh"):
             self.assertIn(f"{script}: HOME is not set: set USER_RBC_CACHE",
                           self.fails(script, USER_RBC_CACHE=""))
+
+    def test_python_gets_the_folders_of_what_is_built(self):
+        environment = {**os.environ, "USER_RBC_CACHE": str(self.folder / "cache"),
+                       "USER_RBC_BUILD": str(self.folder / "build"), "LAMMPS_PLUGIN_PATH": "/mine"}
+        done = run("-c", '. "$0/common.sh"; . "$0/lammps_version.sh" 4Feb2025; '
+                   'echo "$LAMMPS_HOME $LAMMPS_BUILD"', SCRIPTS, env=environment)
+        home, lammps = map(Path, done.stdout.split())
+        for path in (lammps / "liblammps.so", self.folder / "build" / "rbcplugin.so"):
+            path.parent.mkdir(parents=True)
+            path.touch()
+        done = run(SCRIPTS / "python.sh", "-c", "import os, sys, rbc.tables; print(sys.argv[1:], "
+                   "os.environ['LD_LIBRARY_PATH'].split(':')[0], "
+                   "os.environ['LAMMPS_PLUGIN_PATH'], sys.path[2])", "a b", env=environment)
+        self.assertEqual(done.stdout, f"['a b'] {lammps} {self.folder}/build:/mine "
+                                      f"{home}/source/python\n")
 
     def test_of_an_unknown_version(self):
         self.assertIn("build.sh: LAMMPS version 'old' is not known; use 4Feb2025 or newest",

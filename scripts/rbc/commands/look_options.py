@@ -43,7 +43,7 @@ def add_look(parser):
     parser.add_argument("--smooth", type=int, default=1, metavar="N",
                         help=f"subdivisions for display, up to {SUBDIVIDE_BELOW} triangles")
     parser.add_argument("--no-occlusion", dest="occlusion", action="store_false",
-                        help="no shading of narrow gaps (faster)")
+                        help="no shading of narrow gaps (faster; never with --flow)")
 
 
 def parse_look(parser, arguments):

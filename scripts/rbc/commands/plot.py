@@ -16,7 +16,7 @@ to x, in degrees in (-90, 90]: of the long axis, and of the short axis (a disc's
 """
 from rbc import command_line
 from rbc.shear_plot import (
-    Labels, cell_lines, given_series, plot_shear, reference_series, table_lines)
+    ShearLabels, cell_lines, given_series, plot_shear, reference_series, table_lines)
 
 
 def parse(arguments):
@@ -58,6 +58,6 @@ def main(arguments=None):
     references = [given_series(text) for text in args.series]
     if args.reference:
         references += reference_series(args.reference, args.case, args.y[0])
-    across = Labels().y if args.y == ["D"] else ", ".join(args.y)
-    plot_shear(args.output, *lines, references, Labels(args.xlabel or along, across, args.title),
+    across = ShearLabels().y if args.y == ["D"] else ", ".join(args.y)
+    plot_shear(args.output, *lines, references, ShearLabels(args.xlabel or along, across, args.title),
                args.dpi)

@@ -1,0 +1,32 @@
+"""LAMMPS driven from Python by its own module, with this package's plugin."""
+from rbc.cell_tables import cells_of_array
+from rbc.errors import InputError
+
+HOW = "scripts/python.sh sets the paths that it needs"
+
+
+def start_lammps(*words):
+    """LAMMPS with the styles of USER-RBC; `words` are those of its command line.
+
+    All MPI tasks that run the program take part, as with `mpirun -np 2`.
+    """
+    try:
+        from lammps import lammps
+        lmp = lammps(cmdargs=[str(word) for word in words])
+    except ImportError as problem:
+        raise InputError(f"there is no Python module lammps: {HOW}") from problem
+    except OSError as problem:
+        raise InputError(f"LAMMPS's library cannot be loaded: {problem}; {HOW}") from problem
+    if not lmp.has_style("compute", "rbc/cell"):
+        lmp.close()
+        raise InputError("LAMMPS has no styles of USER-RBC: LAMMPS_PLUGIN_PATH must name the "
+                         f"folder of rbcplugin.so; {HOW}")
+    return lmp
+
+
+def cells_now(lmp, compute="cell"):
+    """All columns of a compute rbc/cell at the current step, by name. All MPI tasks must ask."""
+    from lammps import LMP_STYLE_GLOBAL, LMP_TYPE_ARRAY
+
+    array = lmp.numpy.extract_compute(compute, LMP_STYLE_GLOBAL, LMP_TYPE_ARRAY)
+    return cells_of_array(lmp.extract_global("ntimestep"), array)
