@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Debian's Python with LAMMPS's own module, this package's plugin and the package rbc. Builds what is
-# not there yet.
+# Debian's Python with LAMMPS's own module, this package's plugin and the package rbc. Builds what
+# is not there yet.
 #   usage: python.sh [script.py | -m module] [argument ...]
 . "$(dirname "$0")/common.sh"
 . "$(dirname "$0")/lammps_version.sh" 4Feb2025

@@ -160,17 +160,17 @@ def plate_actors(box):
 
 def wall_actor(path, scale=1.0, shift=(0, 0, 0)):
     """The far side of a vessel's surface (STL), seen through the near side; scaled and shifted as
-    by region rbc/mesh."""
+    by region rbc/mesh. The triangles may be right- or left-handed seen from outside."""
     open(path, "rb").close()    # raises what is wrong, which VTK would only print
     reader = vtkSTLReader()
     reader.SetFileName(os.fspath(path))
+    reader.Update()
+    if not reader.GetOutput().GetNumberOfPolys():
+        raise InputError(f"{path} holds no surface")
     normals = vtkPolyDataNormals()
     normals.SetInputConnection(reader.GetOutputPort())
     normals.SetFeatureAngle(50)
-    normals.AutoOrientNormalsOn()
-    normals.Update()
-    if not normals.GetOutput().GetNumberOfPolys():
-        raise InputError(f"{path} holds no surface")
+    normals.ConsistencyOff()
     mapper = vtkPolyDataMapper()
     mapper.SetInputConnection(normals.GetOutputPort())
     actor = vtkActor()
@@ -178,10 +178,22 @@ def wall_actor(path, scale=1.0, shift=(0, 0, 0)):
     look = actor.GetProperty()
     look.SetColor(*GLASS)
     look.SetOpacity(0.55)
-    look.FrontfaceCullingOn()
+    if is_right_handed(reader.GetOutput()):
+        look.FrontfaceCullingOn()
+    else:
+        look.BackfaceCullingOn()
     actor.SetScale(scale)
     actor.SetPosition(*shift)
     return actor
+
+
+def is_right_handed(surface):
+    """Whether most of the triangles' normals point away from the middle; the ends may be open."""
+    points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
+    triangles = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    a, b, c = points[triangles].transpose(1, 0, 2)
+    away = (a + b + c) / 3 - points.mean(axis=0)
+    return np.einsum("ij,ij->", np.cross(b - a, c - a), away) > 0
 
 
 def slice_actor(path, axis, place=None, limits=None):

@@ -62,15 +62,30 @@ class Pictures(unittest.TestCase):
         with self.assertRaisesRegex(InputError, "a slice at 11 is outside the grid, 0 to 10"):
             render(self.folder / "cells.0.vtp", self.folder / "x.png", look._replace(slice_at=11))
 
-    def test_walls_are_where_the_region_puts_them(self):
-        vertices, triangles = cuboid((1, 1, 1))
+    def wall(self, mesh):
+        """STL file of a mesh."""
+        vertices, triangles = mesh
         facets = "".join(
             "facet normal 0 0 0\nouter loop\n"
             + "".join("vertex {:g} {:g} {:g}\n".format(*vertices[n]) for n in triangle)
             + "endloop\nendfacet\n" for triangle in triangles)
-        (self.folder / "box.stl").write_text(f"solid x\n{facets}endsolid x\n")
+        path = self.folder / "wall.stl"
+        path.write_text(f"solid x\n{facets}endsolid x\n")
+        return path
+
+    def test_walls_are_behind_the_cells_inside(self):
+        vertices, triangles = cuboid((6, 6, 6), (5, 5, 5))
+        cell = sphere(2, (5, 5, 5))
+        without = self.picture(cell, FRONT)
+        for handed in (triangles, triangles[:, ::-1]):
+            image = self.picture(cell, FRONT._replace(walls=[self.wall((vertices, handed))]))
+            np.testing.assert_array_equal(image[150:250, 150:250], without[150:250, 150:250])
+            self.assertGreater(abs(image[200, 290] - without[200, 290]).max(), 0.1)
+
+    def test_walls_are_where_the_region_puts_them(self):
         cell = sphere(0.3, (1, 5, 1))
-        look = FRONT._replace(walls=[self.folder / "box.stl"], wall_scale=4, wall_shift=(6, 5, 7))
+        look = FRONT._replace(walls=[self.wall(cuboid((1, 1, 1)))], wall_scale=4,
+                              wall_shift=(6, 5, 7))
         changed = np.abs(self.picture(cell, look) - self.picture(cell, FRONT)).max(axis=2) > 0.02
         rows, columns = np.nonzero(changed)
         for place, middle in ((columns, 6), (399 - rows, 7)):
