@@ -43,17 +43,27 @@ def hold(lmp, target, duration, rate):
 
 
 def published():
-    """Arrays of Ca and D that others computed, in the order of Ca."""
-    rows = [(float(row["Ca_G"]), float(row["D_steady"])) for row in rbc.read_csv(PUBLISHED)
-            if row["D_steady"]]
-    return np.array(sorted(rows)).T
+    """{source: (Ca, D)} of the steady deformations that others computed."""
+    points = {}
+    for row in rbc.read_csv(PUBLISHED):
+        if row["D_steady"]:
+            points.setdefault(row["source"], []).append((row["Ca_G"], row["D_steady"]))
+    return {source: np.array(pairs, dtype=float).T for source, pairs in points.items()}
+
+
+def published_at(ca):
+    """Least and largest D of the sources at a capillary number, by powers of it between points."""
+    found = [np.exp(np.interp(np.log(ca), *np.log(curve))) for curve in published().values()]
+    return min(found), max(found)
 
 
 def settled(rows, target):
     """Mean Ca and D over the last fifth of the time that a target was held."""
     late = rows[rows[:, 0] > rows[-1, 0] - 0.2 * (rows[-1, 0] - rows[0, 0])]
     ca, deformation = late[:, 1].mean(), late[:, 2].mean()
-    print(f"D {target:g} asked for, {deformation:.4f} held at Ca {ca:.4f}")
+    least, most = published_at(ca)
+    print(f"D {target:g} asked for, {deformation:.4f} held at Ca {ca:.4f}, "
+          f"where others find {least:.3f} to {most:.3f}")
     return ca, deformation
 
 
@@ -68,7 +78,8 @@ def draw(path, pieces, means):
         panels["Ca"].plot(rows[:, 0], rows[:, 1], color="#1f4e79")
     panels["D"].set(ylabel="deformation D", ylim=(0, None), xticklabels=[])
     panels["Ca"].set(xlabel="time (viscosity · radius / G$_s$)", ylabel="Ca, set", ylim=(0, None))
-    panels["curve"].plot(*published(), "o", mfc="none", color="#222222", label="published")
+    others = np.concatenate(list(published().values()), axis=1)
+    panels["curve"].plot(*others, "o", mfc="none", color="#222222", label="published")
     panels["curve"].plot(*np.transpose(means), "D", color="#b3202a", label="held here")
     panels["curve"].set(xlabel="capillary number Ca", ylabel="steady D", xlim=(0, None),
                         ylim=(0, None))
