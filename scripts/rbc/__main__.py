@@ -1,10 +1,10 @@
 """The commands of `python3 -m rbc`."""
 import importlib
-import os
 import sys
 
 from rbc import command_line
 
+PROGRAM = "python3 -m rbc"
 COMMANDS = {
     "csv": "tables of a run as CSV: cell.dat, logs, measures of surfaces",
     "render": "a picture of cells, with walls and a slice of the flow",
@@ -19,8 +19,8 @@ COMMANDS = {
 
 def listing():
     rows = "\n".join(f"  {name:<11} {what}" for name, what in COMMANDS.items())
-    return (f"usage: python3 -m rbc COMMAND ...\n\n{rows}\n\n"
-            "python3 -m rbc COMMAND --help lists its options. In Python, import rbc and see\n"
+    return (f"usage: {PROGRAM} COMMAND ...\n\n{rows}\n\n"
+            f"{PROGRAM} COMMAND --help lists its options. In Python, import rbc and see\n"
             "help(rbc).")
 
 
@@ -30,8 +30,8 @@ def main(words):
         return
     name, *arguments = words
     if name not in COMMANDS:
-        command_line.stop("rbc", f"there is no command {name}; there are {', '.join(COMMANDS)}")
-    sys.argv[0] = os.path.join(os.path.dirname(sys.argv[0]), f"rbc {name}")
+        command_line.stop(PROGRAM, f"there is no command {name}; there are {', '.join(COMMANDS)}")
+    sys.argv[0] = f"{PROGRAM} {name}"
     importlib.import_module(f"rbc.commands.{name}").main(arguments)
 
 

@@ -92,14 +92,14 @@ class Package(unittest.TestCase):
             with self.subTest(name):
                 code, printed = self.attempt(name, "--help")
                 self.assertEqual(code, 0)
-                self.assertRegex(printed, f"^usage: rbc {name} ")
+                self.assertRegex(printed, f"^usage: python3 -m rbc {name} ")
                 code, printed = self.attempt(name, "--nonsense")
                 self.assertEqual(code, 2)
                 code, printed = self.attempt(name, "--help", python=("-S",))
-                self.assertRegex(printed, f"^rbc {name}: needs the Python module ")
+                self.assertRegex(printed, f"^python3 -m rbc {name}: needs the Python module ")
         code, printed = self.attempt("nonsense")
         self.assertEqual(code, 2)
-        self.assertRegex(printed, "^rbc: there is no command nonsense; there are ")
+        self.assertRegex(printed, "^python3 -m rbc: there is no command nonsense; there are ")
 
     def test_a_reader_that_ends_early_is_no_fault(self):
         code, printed = attempt("-c", "from rbc import command_line\nraise BrokenPipeError",

@@ -11,6 +11,7 @@ OUTPUT = """
 compute cell all rbc/cell
 fix out all ave/time 5 1 5 c_cell[*] mode vector format " %.15g" file cell.dat
 fix surfaces all rbc/vtk 5 cells.*.vtp
+fix parts all rbc/vtk 5 parts.*.pvtp
 dump velocity all grid/vtk 5 u.*.vtr f_flow:grid:velocity[1] f_flow:grid:velocity[2] &
      f_flow:grid:velocity[3]
 dump text all grid 5 flow.grid f_flow:grid:velocity[*]
@@ -48,6 +49,15 @@ class Package(unittest.TestCase):
                 np.testing.assert_allclose(apart / (10, 14, 12), np.round(apart / (10, 14, 12)),
                                            atol=1e-6)
             self.assertEqual(rbc.read_surfaces(self.path(f"cells.{step}.vtp")).time, 200 * step)
+
+    def test_files_of_several_tasks_are_read_as_one(self):
+        whole, parts = (rbc.read_surfaces(self.path(name)).cells()
+                        for name in ("cells.10.vtp", "parts.10.pvtp"))
+        self.assertGreater(len(list(self.path("parts.10_0.vtp").parent.glob("parts.10_*.vtp"))), 1)
+        self.assertEqual(list(whole), list(parts))
+        for molecule, (vertices, triangles) in whole.items():
+            np.testing.assert_array_equal(parts[molecule][0], vertices)
+            np.testing.assert_array_equal(parts[molecule][1], triangles)
 
     def test_both_kinds_of_grids_are_equal(self):
         texts = rbc.read_grids(self.path("flow.grid"))

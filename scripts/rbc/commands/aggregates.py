@@ -3,7 +3,7 @@ rbc/aggregate`:
 
 fix sizes   all ave/time 1000 1 1000 c_agg[*] file sizes.dat
   fix classes all ave/time 1000 1 1000 c_agg[*] mode vector file classes.dat
-  plot_aggregates.py --case 10 low/classes.dat low/sizes.dat \\
+  %(prog)s --case 10 low/classes.dat low/sizes.dat \\
                      --case 100 high/classes.dat high/sizes.dat -o sizes.png
 
 Fractions are of the aggregates of all frames together. With --no-singles single cells do not count

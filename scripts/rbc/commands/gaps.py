@@ -2,7 +2,7 @@
 nearer than a reach the least distance of all their triangles, 0 where they cut each other; writes a
 row for each file to a CSV file.
 
-surface_gaps.py cells.*.vtp --box 47.6 47.6 30 --walls z -o gaps.csv
+%(prog)s cells.*.vtp --box 47.6 47.6 30 --walls z -o gaps.csv
 """
 import csv
 

@@ -12,7 +12,7 @@ vertices around the centre, is given beside it.
 
 Means are over whole half turns of a shape that tumbles.
 
-membrane_motion.py vertices.dump --timestep DT --shear-rate G [-o motion.dat] [--from STRAIN]
+%(prog)s vertices.dump --timestep DT --shear-rate G [-o motion.dat] [--from STRAIN]
 """
 from rbc import command_line
 import numpy as np

@@ -3,12 +3,12 @@
 Input is either the array of `compute rbc/cell` (all columns, or 1, 7 and 11 to 16 in any order),
 
   fix out all ave/time 100 1 100 c_cell[*] mode vector file cell.dat
-  plot_shear.py --cells cell.dat --timestep 2 --shear-rate 1e-3 \\
+  %(prog)s --cells cell.dat --timestep 2 --shear-rate 1e-3 \\
                 --reference 02b_capsule_shear_NH_transient_D.csv --case Ca_E=0.1 --output D.png
 
 or a whitespace table with a line "# time D theta_long area" above it:
 
-  plot_shear.py table.dat --x time --y D --xscale 1e-3 \\
+  %(prog)s table.dat --x time --y D --xscale 1e-3 \\
                 --series "theory=curve.csv:time:D:Ca=0.1" --output D.png
 
 The flow is along x and its gradient along z. Angles are those of the projection on the x-z plane
@@ -59,5 +59,5 @@ def main(arguments=None):
     if args.reference:
         references += reference_series(args.reference, args.case, args.y[0])
     across = ShearLabels().y if args.y == ["D"] else ", ".join(args.y)
-    plot_shear(args.output, *lines, references, ShearLabels(args.xlabel or along, across, args.title),
-               args.dpi)
+    labels = ShearLabels(args.xlabel or along, across, args.title)
+    plot_shear(args.output, *lines, references, labels, args.dpi)

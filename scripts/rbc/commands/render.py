@@ -1,8 +1,8 @@
 """Render the closed surfaces of a .vtp or .pvtp file to a PNG, without a display.
 
-  render_cells.py cells.1000.vtp -o cells.png --box 0 32 0 32 0 24 --plates --scale-bar 8
-  render_cells.py cells.1000.pvtp -o cells.png --color tension --view 30 20
-  render_cells.py cells.1000.vtp -o cells.png --walls vessel.stl --flow velocity.1000.vtr
+  %(prog)s cells.1000.vtp -o cells.png --box 0 32 0 32 0 24 --plates --scale-bar 8
+  %(prog)s cells.1000.pvtp -o cells.png --color tension --view 30 20
+  %(prog)s cells.1000.vtp -o cells.png --walls vessel.stl --flow velocity.1000.vtr
 
 Lengths are in the unit of the file. The view is from azimuth A (degrees from -y towards +x) and
 elevation E above the x-y plane: `--view 0 0` sees x to the right and z up.

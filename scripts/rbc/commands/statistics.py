@@ -1,7 +1,7 @@
 """Where cells are to each other and where they go, from the array of `compute rbc/cell`:
 
 fix out all ave/time 1000 1 1000 c_cell[*] mode vector file cell.dat
-  cell_statistics.py cell.dat --box 0 24 0 24 0 24 --boundary p p f --neighbours 4 -o statistics
+  %(prog)s cell.dat --box 0 24 0 24 0 24 --boundary p p f --neighbours 4 -o statistics
 
 writes statistics-pairs.dat (radial distribution of the centres and mean |cos| of the angle between
 the short axes, against distance), statistics-paths.dat (coordinates of sampled cells against time)
