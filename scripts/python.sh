@@ -5,7 +5,7 @@
 . "$(dirname "$0")/common.sh"
 . "$(dirname "$0")/lammps_version.sh" 4Feb2025
 
-[ -f "$BUILD/rbcplugin.so" ] && [ -f "$LAMMPS_BUILD/liblammps.so" ] ||
+[ -f "$BUILD/rbcplugin.so" ] && [ -d "$LAMMPS_HOME/source" ] ||
   "$ROOT/scripts/build.sh" 4Feb2025 rbcplugin
 
 export PYTHONPATH=$ROOT/scripts:$LAMMPS_HOME/source/python${PYTHONPATH:+:$PYTHONPATH}
