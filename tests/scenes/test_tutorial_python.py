@@ -56,6 +56,13 @@ class Tutorial(unittest.TestCase):
         slip = profile[0] + 8.0e-4 - log["f_flow[1]"][0] / 1.5 * grid.centres[2][0]
         self.assertLess(abs(slip), 1e-3 * 8.0e-4)
 
+    def test_functions_of_the_table_are_there(self):
+        table = PAGE.split("What there is")[1].split("Where things are")[0]
+        names = [name for line in table.splitlines() if line.startswith("   * - *")
+                 for name in re.findall(r"\*(\w+)\*", line)]
+        functions = {name for name in rbc.__all__ if name[0].islower()}
+        self.assertEqual(set(names), functions - {"read_csv", "series", "cells_of_array"})
+
     def test_commands(self):
         commands = re.findall("^   rbc (.*)", PAGE.replace("\\\n", ""), re.MULTILINE)
         self.assertEqual(len(commands), 6)
