@@ -196,6 +196,10 @@ def is_right_handed(surface):
     return np.einsum("ij,ij->", np.cross(b - a, c - a), away) > 0
 
 
+def largest_speed(path):
+    return np.linalg.norm(read_grid(path).vector(), axis=-1).max()
+
+
 def slice_actor(path, axis, place=None, limits=None):
     """A plane through a grid, colored by the speed of the fluid, and its lookup table. `axis`: 0, 1
     or 2, which the plane is normal to, at `place` (the middle if None)."""

@@ -6,7 +6,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from rbc.actors import IDENTITIES, limits_of
+from rbc.actors import IDENTITIES, largest_speed, limits_of
 from rbc.display import display
 from rbc.errors import InputError
 from rbc.rendering import Look, render
@@ -37,7 +37,7 @@ def flow_of(step, flows):
     return flows[place - 1][1]
 
 
-def common_look(files, look):
+def common_look(files, flows, look):
     """The same box and limits of colors in all pictures."""
     if look.box is None:
         points = [read_surfaces(name).points for name in files]
@@ -47,20 +47,22 @@ def common_look(files, look):
     if look.color and look.color not in IDENTITIES and look.range is None:
         limits = [limits_of(name, look.color) for name in files]
         look = look._replace(range=(min(low for low, _ in limits), max(high for _, high in limits)))
+    if flows and look.flow_range is None:
+        fastest = max(largest_speed(name) for name in flows)
+        look = look._replace(flow_range=(0, fastest or 1))
     return look
 
 
 def draw_frames(files, flows, folder, look):
     """PNG files of all pictures, in order of the steps."""
-    frames = series(files)
-    look = common_look([name for _, name in frames], look)
-    flows = series(flows)
+    frames, flows = series(files), series(flows)
+    shown = [flow_of(step, flows) if flows else None for step, _ in frames]
+    look = common_look([name for _, name in frames], set(shown) - {None}, look)
     pictures = []
     with display():
-        for number, (step, name) in enumerate(frames):
+        for number, ((_, name), flow) in enumerate(zip(frames, shown)):
             pictures.append(os.path.join(folder, f"{number:06d}.png"))
-            render(name, pictures[-1],
-                   look._replace(flow=flow_of(step, flows)) if flows else look)
+            render(name, pictures[-1], look._replace(flow=flow))
     return pictures
 
 
