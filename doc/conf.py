@@ -11,8 +11,9 @@ project_copyright = author
 
 extensions = ["myst_parser", "sphinx.ext.mathjax", "sphinx.ext.autosectionlabel", "rbc_pages"]
 root_doc = "doc/index"
-include_patterns = ["README.md", "CONTRIBUTING.md", "doc/*.rst", "bench/README.md",
-                    "potentials/README.md", "examples/README.md", "examples/*/README.md"]
+include_patterns = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "doc/*.rst",
+                    "bench/README.md", "potentials/README.md",
+                    "examples/README.md", "examples/*/README.md"]
 exclude_patterns = ["build*", ".git", "src", "tests", "fluid", "cmake", "scripts"]
 autosectionlabel_prefix_document = True
 myst_heading_anchors = 4

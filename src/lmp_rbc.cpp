@@ -51,7 +51,7 @@ void print_styles()
   void *const plugin = dlopen((own_folder() + "/rbcplugin.so").c_str(), RTLD_NOW);
   if (!plugin) return;
   const auto init = reinterpret_cast<lammpsplugin_initfunc>(dlsym(plugin, "lammpsplugin_init"));
-  std::printf("Styles of USER-RBC:\n");
+  std::printf("Styles of USER-RBC %s:\n", RBC_VERSION);
   if (init) init(nullptr, plugin, reinterpret_cast<void *>(print_style));
   std::printf("\nHelp of LAMMPS:\n");
   std::fflush(stdout);

@@ -6,12 +6,14 @@ import unittest
 
 import numpy as np
 
-from lammps_case import POTENTIALS, SHEAR, in_parallel, read_template, run, scene
+from lammps_case import POTENTIALS, SHEAR, in_parallel, read_template, run, scene, version
 
 PLATES = SHEAR["fluid"].replace("dx 1.0", "dx 1.2")
 TWO = {"box": "region box block 0 24 0 12 0 12",
        "cells": "rbc/create rbc single 6 6 6\nrbc/create rbc single 18 6 6"}
 CONTACT = "pair_style rbc/jkr {0}\npair_coeff * * repulsive 0.5 {0}"
+WITHOUT_CELLS = {"molecule": None, "cells": "create_atoms 1 single 6 6 6\nmass 1 1", "membrane": None,
+                 "compute": None, "thermo": "thermo_style custom step f_flow[11]"}
 REPELLED = "fix plates all wall/harmonic zlo EDGE 0.02 1.0 0.5 zhi EDGE 0.02 1.0 0.5"
 
 
@@ -171,10 +173,17 @@ class Warnings(unittest.TestCase):
         self.assertEqual(again.printed.count("USER-RBC scene"), 2)    # the skin changed
         self.assertEqual(again.printed.count("nothing repels the 2 cells"), 2)
 
+    def test_version_of_the_package_stands_above_once(self):
+        """Also where a second table follows, and in scenes without cells. CMakeLists.txt has it."""
+        again = run(scene(**TWO, run="run 0\nrun 0\nneighbor 0.8 bin\nrun 0"), ranks=2)
+        lines = again.printed.splitlines()
+        named = [n for n, line in enumerate(lines) if line.startswith("USER-RBC version")]
+        self.assertEqual([lines[n] for n in named], [f"USER-RBC version {version()}"])
+        self.assertLess(named[0], next(n for n, line in enumerate(lines) if "USER-RBC scene" in line))
+        self.assertIn(f"USER-RBC version {version()}\n", run(scene(**WITHOUT_CELLS)).printed)
+
     def test_nothing_without_cells(self):
-        bead = dict(molecule=None, cells="create_atoms 1 single 6 6 6\nmass 1 1", membrane=None, compute=None,
-                    thermo="thermo_style custom step f_flow[11]")
-        self.assertNotIn("USER-RBC scene", run(scene(**bead)).printed)
+        self.assertNotIn("USER-RBC scene", run(scene(**WITHOUT_CELLS)).printed)
 
 
 if __name__ == "__main__":

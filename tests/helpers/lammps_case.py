@@ -52,6 +52,12 @@ SHEAR = {
     "run": "run 0"}
 
 
+def version():
+    """Of the package, as CMakeLists.txt says it."""
+    return re.search(r"^project\(\S+ VERSION (\S+) ", (ROOT / "CMakeLists.txt").read_text(),
+                     re.MULTILINE).group(1)
+
+
 def scene(base=SHEAR, **changes):
     """The script of `base` with some lines changed, dropped (None) or filled in, by the names of
     the lines."""

@@ -6,6 +6,8 @@ import subprocess
 import unittest
 from pathlib import Path
 
+from lammps_case import version
+
 PACKAGE = Path(__file__).resolve().parents[2] / "src" / "USER-RBC"
 
 
@@ -45,6 +47,7 @@ class Products(unittest.TestCase):
         self.assertEqual({(kind.capitalize(), name) for kind, name in listed}, styles_in_headers())
         self.assertEqual(len(listed), len(set(listed)))
         self.assertIn("List of command-line options", run.stdout)
+        self.assertEqual(run.stdout.splitlines()[0], f"Styles of USER-RBC {version()}:")
 
     def test_plugin_adds_exactly_the_package(self):
         load = f"plugin load {os.environ['RBC_PLUGIN']}\ninfo styles all\n"

@@ -14,6 +14,7 @@
 #include "neighbor.h"
 #include "pair.h"
 #include "support/rbc_pair_parts.h"
+#include "support/rbc_version.h"
 #include "utils.h"
 
 #include <algorithm>
@@ -48,6 +49,7 @@ SceneTable::SceneTable(LAMMPS *lmp, std::string style) : Pointers(lmp), style_(s
 
 void SceneTable::print(const DrivenFlow &flow)
 {
+  print_version();
   spacing_ = flow.smallest_spacing();
   shear_rate_ = shear_rate(flow);
   find_kinds(flow);
@@ -66,6 +68,13 @@ void SceneTable::print(const DrivenFlow &flow)
   warn_of_insides(flow);
   warn_of_contacts();
   warn_of_plates(flow);
+}
+
+void SceneTable::print_version()
+{
+  if (comm->me == 0 && !version_printed_)
+    utils::logmesg(lmp, fmt::format("USER-RBC version {}\n", rbc_version()));
+  version_printed_ = true;
 }
 
 /* ----------------------------------------------------------------------

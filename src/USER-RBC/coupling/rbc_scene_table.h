@@ -13,7 +13,7 @@ class DrivenFlow;
 
 /// What a scene of cells is made of, measured by the fluid's grid: a table at the start of a run,
 /// and a warning for each number that is out of its range. A run whose table is that of the one
-/// before prints nothing.
+/// before prints nothing. The version of the package stands above the first table.
 class SceneTable : protected Pointers {
  public:
   /// `style` names the fix of the fluid in warnings.
@@ -22,7 +22,7 @@ class SceneTable : protected Pointers {
   void choose_warnings(bool on) { warns_ = on; }
 
   /// Collective, at the start of a run, when all styles are initialised and the forcing of the flow
-  /// is known. Does nothing in a scene without cells.
+  /// is known. Prints no table of a scene without cells.
   void print(const DrivenFlow &flow);
 
  private:
@@ -35,12 +35,13 @@ class SceneTable : protected Pointers {
   };
 
   std::string style_, printed_;
-  bool warns_ = true;
+  bool warns_ = true, version_printed_ = false;
   double spacing_ = 1, shear_rate_ = 0, plate_distance_ = 0;
   std::vector<Kind> kinds_;
   std::vector<std::string> apart_;    ///< cells that do not touch each other, in words
   std::string repelling_;             ///< pair styles and fixes that repel cells from walls
 
+  void print_version();
   double shear_rate(const DrivenFlow &flow) const;
   void find_kinds(const DrivenFlow &flow);
   void find_types();
