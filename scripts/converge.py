@@ -161,7 +161,7 @@ def options():
     parser.add_argument("-o", "--output", type=Path, default=Path("converge"), metavar="FOLDER",
                         help="made if it is not there (default converge)")
     parser.add_argument("--lmp", type=os.path.abspath,
-                        default=os.path.join(example_study.TOP, "build", "lmp_rbc"))
+                        default=command_line.default_executable())
     parser.add_argument("--ranks", type=ranks, default=1)
     return parser
 

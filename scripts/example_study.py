@@ -17,7 +17,8 @@ def options(description, series=()):
     chooses from."""
     parser = command_line.parser(description)
     command_line.add_results(parser)
-    parser.add_argument("--lmp", type=os.path.abspath, default=os.path.join(TOP, "build", "lmp_rbc"))
+    parser.add_argument("--lmp", type=os.path.abspath,
+                        default=command_line.default_executable())
     parser.add_argument("--ranks", type=int, default=1)
     if series:
         parser.add_argument("--only", nargs="+", choices=list(dict.fromkeys(series)), help="series to run; default all")

@@ -1,5 +1,7 @@
 // LAMMPS with this package. LAMMPS loads the plugins in the folders of LAMMPS_PLUGIN_PATH at its
-// start and after each `clear`; the folder of this executable, where the plugin is, joins them.
+// start and after each `clear`; the folder of the plugin joins them. Scripts find templates and
+// materials in LAMMPS_POTENTIALS, which is set unless the user has set it. Folders are found from
+// that of this executable, so that an installation can be moved.
 
 #include "exceptions.h"
 #include "input.h"
@@ -19,14 +21,31 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-std::string own_folder()
+/// The first of two folders, from that of this executable, that has this file; empty if none has.
+std::string folder_with(const char *file, const char *built, const char *installed)
 {
-  return std::filesystem::canonical("/proc/self/exe").parent_path();
+  const auto own = std::filesystem::canonical("/proc/self/exe").parent_path();
+  for (const char *folder : {built, installed})
+    if (exists(own / folder / file)) return canonical(own / folder);
+  return {};
+}
+
+std::string plugin_folder()
+{
+  return folder_with("rbcplugin.so", ".", RBC_PLUGIN_FOLDER);
+}
+
+void set_potentials()
+{
+  const std::string folder =
+      folder_with("healthy.material", "../potentials", RBC_POTENTIALS_FOLDER);
+  if (!folder.empty()) setenv("LAMMPS_POTENTIALS", folder.c_str(), 0);
 }
 
 void add_plugin_folder()
 {
-  const std::string folder = own_folder();
+  const std::string folder = plugin_folder();
+  if (folder.empty()) return;
   const char *const given = std::getenv("LAMMPS_PLUGIN_PATH");
   if (given && (":" + std::string(given) + ":").find(":" + folder + ":") != std::string::npos)
     return;
@@ -48,7 +67,7 @@ void print_style(lammpsplugin_t *style, void *)
 
 void print_styles()
 {
-  void *const plugin = dlopen((own_folder() + "/rbcplugin.so").c_str(), RTLD_NOW);
+  void *const plugin = dlopen((plugin_folder() + "/rbcplugin.so").c_str(), RTLD_NOW);
   if (!plugin) return;
   const auto init = reinterpret_cast<lammpsplugin_initfunc>(dlsym(plugin, "lammpsplugin_init"));
   std::printf("Styles of USER-RBC %s:\n", RBC_VERSION);
@@ -62,6 +81,7 @@ void print_styles()
 int main(int argc, char **argv)
 {
   add_plugin_folder();
+  set_potentials();
   MPI_Init(&argc, &argv);
   int me;
   MPI_Comm_rank(MPI_COMM_WORLD, &me);

@@ -54,6 +54,13 @@ def stop(program, text):
     raise SystemExit(2)
 
 
+def default_executable():
+    """What was built, or if nothing was, what was installed with this script."""
+    top = Path(__file__).resolve().parents[2]
+    built, installed = top / "build" / "lmp_rbc", top.parents[1] / "bin" / "lmp_rbc"
+    return str(installed if installed.exists() and not built.exists() else built)
+
+
 def parser(description):
     """A parser of options that must be spelt out: a new one cannot change what a command means."""
     return argparse.ArgumentParser(
