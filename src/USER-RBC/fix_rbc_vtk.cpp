@@ -155,9 +155,10 @@ void FixRBCVTK::write(ComputeRBCAggregate *grouping, const std::string &context)
   const std::string stem = name.substr(0, name.rfind('.'));
   const auto piece = [&](int rank) { return fmt::format("{}_{}.vtp", stem, rank); };
   const double time = update->atime + (last_step - update->atimestep) * update->dt;
-  rbc::PointData data{ARRAYS, {"molecule"}};
+  using Labels = std::vector<std::string>;
+  const rbc::PointData data{ARRAYS,
+                            grouping ? Labels{"molecule", "aggregate"} : Labels{"molecule"}};
   if (grouping) {
-    data.labels.push_back("aggregate");
     modify->clearstep_compute();
     if (!(grouping->invoked_flag & Compute::INVOKED_PERATOM)) {
       grouping->compute_peratom();
