@@ -19,10 +19,19 @@ PYTHON=/usr/bin/python3
 export CCACHE_DIR=$CACHE/ccache
 
 # Open MPI refuses root and too many ranks by default; containers and small test machines need both.
+# PRTE starts the ranks of Open MPI 5.
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1
 export OMPI_MCA_hwloc_base_binding_policy=none
+export PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_default_binding_policy=none
 export OMP_NUM_THREADS=1
+
+# The Debian archive that apt of this machine takes its release from.
+debian_archive() {
+  apt-get indextargets --format '$(RELEASE) $(COMPONENT) $(REPO_URI)' 'Created-By: Packages' |
+    awk -v codename="$(. /etc/os-release && echo "$VERSION_CODENAME")" \
+      '$1 == codename && $2 == "main" {print $3; exit}'
+}
 
 # Ends before anything is built unless the arguments of a benchmark say where its results go. Its
 # Python script reads them.

@@ -22,8 +22,11 @@ POTENTIALS = ROOT / "potentials"
 
 # As in scripts/common.sh, for a bare `python3 -m unittest`.
 ENVIRONMENT = {
-    "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
-    "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_hwloc_base_binding_policy": "none", "OMP_NUM_THREADS": "1"}
+    "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_mpi_yield_when_idle": "1",
+    "OMPI_MCA_hwloc_base_binding_policy": "none", "OMP_NUM_THREADS": "1",
+    "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
+    "PRTE_MCA_hwloc_default_binding_policy": "none"}
 
 # One red blood cell in shear between plates, in the order of the lines of an input script.
 SHEAR = {
@@ -50,6 +53,15 @@ SHEAR = {
     "dump": "",
     "last": "",
     "run": "run 0"}
+
+
+def write_plain_numbers():
+    """Scripts hold the repr() of numbers: in this thread that of NumPy 2 is the number alone."""
+    if not np.__version__.startswith("1."):
+        np.set_printoptions(legacy="1.25")
+
+
+write_plain_numbers()
 
 
 def version():
@@ -211,7 +223,8 @@ class Job:
             self.process = subprocess.Popen(
                 command, cwd=self.folder, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
                 preexec_fn=before, restore_signals=before is None,
-                env={**os.environ, **ENVIRONMENT, "OMPI_MCA_orte_tmpdir_base": self._session.name})
+                env={**os.environ, **ENVIRONMENT, "OMPI_MCA_orte_tmpdir_base": self._session.name,
+                     "PRTE_MCA_prte_tmpdir_base": self._session.name})
 
     def __enter__(self):
         return self
@@ -244,5 +257,5 @@ def run(script, ranks=1, **options):
 
 def in_parallel(function, arguments, workers=2):
     """[function(*argument) for argument in arguments], some at a time."""
-    with ThreadPoolExecutor(workers) as pool:
+    with ThreadPoolExecutor(workers, initializer=write_plain_numbers) as pool:
         return list(pool.map(lambda argument: function(*argument), arguments))
