@@ -15,8 +15,7 @@ clean() {
 fetch_source() {
   local uri header
   scratch=$(mktemp -d)
-  uri=$(apt-get indextargets --format '$(RELEASE) $(COMPONENT) $(REPO_URI)' 'Created-By: Packages' |
-    awk -v codename="$(. /etc/os-release && echo "$VERSION_CODENAME")" '$1 == codename && $2 == "main" {print $3; exit}')
+  uri=$(debian_archive)
   [ -n "$uri" ] || fail "there is no Debian main archive in this machine's apt configuration"
 
   mkdir -p "$scratch/lists/partial" "$scratch/cache/archives/partial"
