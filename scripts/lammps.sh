@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Fetches the LAMMPS source from Debian and builds it once into the cache, keyed by version and options.
-# Prints nothing but progress; leaves $CACHE/lammps-<version>/{source,build-<key>}.
+# Fetches the LAMMPS source from Debian and builds it once into the cache, keyed by version and
+# options, unless this Debian has the library. Prints nothing but progress; leaves
+# $CACHE/lammps-<version>/{source,build-<key>}.
 #   usage: lammps.sh [4Feb2025|newest]
 . "$(dirname "$0")/common.sh"
 . "$(dirname "$0")/lammps_version.sh" "${1:-4Feb2025}"
@@ -38,6 +39,8 @@ CONF
   mv "${header%/src/lammps.h}" "$LAMMPS_HOME/source"
 }
 
+[ "$LAMMPS_DEBIAN" = no ] || "$ROOT/scripts/dependencies.sh" liblammps-dev
+
 if [ ! -d "$LAMMPS_HOME/source" ]; then
   say "fetching the LAMMPS $LAMMPS_VERSION source from Debian"
   trap clean EXIT
@@ -45,7 +48,7 @@ if [ ! -d "$LAMMPS_HOME/source" ]; then
   fetch_source
 fi
 
-if [ ! -f "$LAMMPS_BUILD/installed" ]; then
+if [ "$LAMMPS_DEBIAN" = no ] && [ ! -f "$LAMMPS_BUILD/installed" ]; then
   say "building LAMMPS $LAMMPS_VERSION once into $LAMMPS_BUILD"
   cmake -S "$LAMMPS_HOME/source/cmake" -B "$LAMMPS_BUILD" -G Ninja "${LAMMPS_OPTIONS[@]}"
   cmake --build "$LAMMPS_BUILD" -j "$JOBS"

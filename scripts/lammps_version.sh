@@ -6,6 +6,12 @@ case "$1" in
   *) fail "LAMMPS version '$1' is not known; use 4Feb2025 or newest" ;;
 esac
 
+# Where this machine's Debian is of that suite its liblammps is the same version: yes.
+# USER_RBC_OWN_LAMMPS=1 builds one nonetheless.
+LAMMPS_DEBIAN=no
+[ -n "${USER_RBC_OWN_LAMMPS:-}" ] || ! grep -qs "^VERSION_CODENAME=$LAMMPS_SUITE\$" /etc/os-release ||
+  LAMMPS_DEBIAN=yes
+
 LAMMPS_OPTIONS=(
   -D CMAKE_BUILD_TYPE=RelWithDebInfo -D CMAKE_CXX_FLAGS_RELWITHDEBINFO=-O2
   -D CMAKE_CXX_COMPILER_LAUNCHER=ccache
