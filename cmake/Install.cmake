@@ -22,7 +22,13 @@ install(DIRECTORY potentials DESTINATION ${data_folder} FILES_MATCHING
   PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY scripts DESTINATION ${data_folder} FILES_MATCHING
   PATTERN "*.py" PATTERN __pycache__ EXCLUDE)
-file(GLOB scenes RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS examples/*/in.*)
+# below /usr Python finds the package rbc there
+set(modules lib/python3/dist-packages)
+install(CODE "set(folder \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${modules}\")
+  file(MAKE_DIRECTORY \"\${folder}\")
+  file(CREATE_LINK ../../../${data_folder}/scripts/rbc \"\${folder}/rbc\" SYMBOLIC)")
+file(GLOB scenes RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
+  examples/*/in.* examples/python/*.py)
 foreach(scene ${scenes})
   get_filename_component(folder ${scene} DIRECTORY)
   install(FILES ${scene} DESTINATION ${data_folder}/${folder})

@@ -114,9 +114,14 @@ class Installed(unittest.TestCase):
         self.assertGreater(len(tools), 5)
         for tool in tools:
             self.assertIn("usage:", output(["/usr/bin/python3", tool, "--help"], self.folder))
-        finds = "import command_line; print(command_line.default_executable())"
+        finds = "from rbc import command_line; print(command_line.default_executable())"
         self.assertEqual(output(["/usr/bin/python3", "-c", finds], share / "scripts").strip(),
                          str(self.prefix / "bin" / "lmp_rbc"))
+
+    def test_the_python_package_is_found(self):
+        modules = self.prefix / "lib" / "python3" / "dist-packages"
+        found = output(["/usr/bin/python3", "-c", "import rbc; print(rbc.__file__)"], modules)
+        self.assertEqual(Path(found.strip()), modules / "rbc" / "__init__.py")
 
     @unittest.skipUnless(shutil.which("groff"), "groff is not installed")
     def test_manual_page_has_no_mistakes(self):
