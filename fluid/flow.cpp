@@ -71,6 +71,20 @@ int Flow::spread(const MarkerSet &markers, const DoubleLayer &layer, ForcedVeloc
                        halo_.box());
 }
 
+ScalarField &Flow::supply()
+{
+  assert(equations_.inertia == Inertia::none);
+  if (!is_supplied_) supply_ = ScalarField(brick());
+  is_supplied_ = true;
+  return supply_;
+}
+
+void Flow::end_supply()
+{
+  is_supplied_ = false;
+  supply_ = ScalarField();
+}
+
 /// The box inside which kernels must stay.
 Box Flow::reach(MarkerKind kind) const
 {
@@ -81,6 +95,7 @@ Box Flow::reach(MarkerKind kind) const
 void Flow::accumulate_ghosts()
 {
   accumulate_ghosts_of(total_);
+  if (total_.layered && is_supplied_) add(total_.source, 1, supply_, brick());
 }
 
 void Flow::accumulate_ghosts_of(ForcedVelocity &flow)
@@ -118,7 +133,7 @@ void Flow::solve(const Forcing &forcing)
 void Flow::solve_now(const VectorField &rhs, const Forcing &forcing)
 {
   solved_forcing_ = forcing;
-  solve_for(total_.velocity, rhs, forcing, total_.layered ? &total_.source : nullptr);
+  solve_for(total_.velocity, rhs, forcing, source());
 }
 
 void Flow::solve_for(const VectorField &velocity, const VectorField &rhs, const Forcing &forcing,
@@ -349,7 +364,7 @@ const ScalarField &Flow::pressure()
   const bool forces_only = steady && has_force_;
   if (!kept && !forces_only && !rhs_.bytes()) rhs_ = VectorField(brick());
   if (!kept && equations_.inertia == Inertia::unsteady) assemble(previous_, rhs_);
-  solver_.pressure(forces_only ? total_.force : rhs_, solved_forcing_, pressure_);
+  solver_.pressure(forces_only ? total_.force : rhs_, solved_forcing_, pressure_, supplied());
   return pressure_;
 }
 
@@ -362,7 +377,8 @@ Traffic Flow::traffic() const
 std::size_t Flow::bytes() const
 {
   std::size_t sum = pressure_.bytes() + halo_.bytes() + solver_.bytes() + sheets_.bytes() +
-                    excess_.bytes() + total_.source.bytes() + mobility_.source.bytes();
+                    excess_.bytes() + supply_.bytes() + total_.source.bytes() +
+                    mobility_.source.bytes();
   for (const ForcedVelocity *flow : {&total_, &mobility_})
     for (const VectorField *field : {&flow->force, &flow->velocity, &flow->to_correct})
       sum += field->bytes();

@@ -36,6 +36,14 @@ class Flow {
   /// velocity of the forcing. Returns what spread does. Not collective.
   int spread(const MarkerSet &markers, const DoubleLayer &layer);
 
+  /// The rate at which fluid appears in each cell of the brick, per volume, from the next solve on:
+  /// the divergence of the velocity. Zero at first. What it sums to over the grid is taken evenly
+  /// from all cells. Without inertia. The first call takes memory; on all ranks or none.
+  ScalarField &supply();
+
+  /// No fluid appears from now on.
+  void end_supply();
+
   /// Adds the ghosts' share of the force to its owners: the exchange between spread and solve.
   void accumulate_ghosts();
 
@@ -111,8 +119,8 @@ class Flow {
   /// Valid until the flow changes. Collective.
   const VectorField &fluid_velocity();
 
-  /// Divergence of velocity() that double layers ask for, null without.
-  const ScalarField *source() const { return total_.layered ? &total_.source : nullptr; }
+  /// Divergence of velocity() that double layers and the supply ask for, null without.
+  const ScalarField *source() const { return total_.layered ? &total_.source : supplied(); }
 
   /// Sets a velocity to start from, without divergence: velocity(c, i, j, k) on the brick's faces.
   template <typename Value> void set_velocity(Value value)
@@ -165,6 +173,7 @@ class Flow {
   };
 
   bool damped() const { return steps_ < 2; }
+  const ScalarField *supplied() const { return is_supplied_ ? &supply_ : nullptr; }
   void assemble(const VectorField &velocity, const VectorField &result) const;
   void set_shift(double shift);
   void solve_now(const VectorField &rhs, const Forcing &forcing);
@@ -200,6 +209,8 @@ class Flow {
   VectorField rhs_;         ///< of the momentum equation; without convection for the pressure only
   bool stepped_ = false;    ///< start_step() was called since construction or restore()
 
+  bool is_supplied_ = false;
+  ScalarField supply_;    ///< empty before the first call of supply()
   ScalarField pressure_;
   ForcedVelocity mobility_;    ///< of the last apply_mobility; find_inside uses its force
   ScalarField excess_;         ///< of the viscosity, relative, with double layers

@@ -96,6 +96,9 @@ void Flow::take_over(Flow &old)
   move_field(old.total_.velocity, total_.velocity);
   if (old.has_force_ && has_force_) move_field(old.total_.force, total_.force);
   if (old.has_force_ && has_force_) take_layers(old);
+  if (old.is_supplied_)
+    move(decomposition_.comm, old.decomposition_.bricks, old.supply_.views(), decomposition_.bricks,
+         supply().views());
   if (equations_.inertia != Inertia::none) move_field(old.previous_, previous_);
   if (equations_.inertia == Inertia::convective) move_field(old.rhs_, rhs_);
   if (equations_.inertia == Inertia::convective) fill_ghosts_of(previous_, previous_plates_);

@@ -36,11 +36,22 @@ void MeanProfile::solve(const std::array<View<Complex>, 3> &force, double shift,
 
   double mean = 0;
   for (int k = 1; k < n; ++k) {
-    const double gradient = force[2](0, 0, k).real() * scale + forcing.body[2];
+    const double gradient =
+        force[2](0, 0, k).real() * scale + forcing.body[2] + viscous_force(k, shift);
     pressure_[k] = pressure_[k - 1] + h * gradient;
     mean += pressure_[k] / n;
   }
   pressure_offset_ = mean;
+}
+
+/// On the mean w.
+double MeanProfile::viscous_force(int k, double shift) const
+{
+  const int n = grid_.cells[2];
+  const std::vector<double> &w = velocity_[2];
+  const double above = k < n - 1 ? w[k + 1] : 0;
+  const double h = grid_.spacing[2];
+  return viscosity_ / (h * h) * (above - 2 * w[k] + w[k - 1]) - shift * w[k];
 }
 
 /// Continuity from plate to plate; what the planes do not lose among each other is taken evenly

@@ -25,6 +25,7 @@ class MeanProfile {
   std::vector<double> pressure_, ratio_;
   double pressure_offset_ = 0;
 
+  double viscous_force(int k, double shift) const;
   void set_vertical(const View<Complex> &source, double scale);
 };
 

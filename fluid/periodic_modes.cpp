@@ -112,7 +112,7 @@ class PeriodicModes : public ModeSolver {
       const Lanes inverse_square = (square > 0).select(1 / square, 0.0);
 
       const Modes fx = f(0), fy = f(1), fz = f(2);
-      const Modes p = inverse_square * (dx * fx + dy * fy + dz * fz);
+      Modes p = inverse_square * (dx * fx + dy * fy + dz * fz);
       Modes ux = inverse * (fx - conj(dx) * p), uy = inverse * (fy - conj(dy) * p),
             uz = inverse * (fz - conj(dz) * p);
       if (has_source) {
@@ -120,6 +120,7 @@ class PeriodicModes : public ModeSolver {
         ux = ux + conj(dx) * potential;
         uy = uy + conj(dy) * potential;
         uz = uz + conj(dz) * potential;
+        p = p - (symbol * inverse_square) * over_i(f(3));
       }
       ux.store(block_[0].data() + offset);
       uy.store(block_[1].data() + offset);

@@ -17,8 +17,9 @@ std::array<View<Complex>, 3> StokesSolver::spectrum() const
   return {fourier_.spectrum(0), fourier_.spectrum(1), fourier_.spectrum(2)};
 }
 
-void StokesSolver::velocity(const VectorField &force, const Forcing &forcing,
-                            const VectorField &velocity, const ScalarField *source)
+/// The modes of the velocity are in spectrum() then.
+void StokesSolver::solve(const VectorField &force, const Forcing &forcing,
+                         const View<Complex> *pressure, const ScalarField *source)
 {
   if (source) {
     if (!source_modes_.bytes()) source_modes_ = Components<Complex, 1>(fourier_.modes());
@@ -27,20 +28,23 @@ void StokesSolver::velocity(const VectorField &force, const Forcing &forcing,
   }
   const View<Complex> source_modes = source_modes_[0];
   fourier_.forward(force.views());
-  modes_->solve(spectrum(), forcing, nullptr, source ? &source_modes : nullptr);
+  modes_->solve(spectrum(), forcing, pressure, source ? &source_modes : nullptr);
+}
+
+void StokesSolver::velocity(const VectorField &force, const Forcing &forcing,
+                            const VectorField &velocity, const ScalarField *source)
+{
+  solve(force, forcing, nullptr, source);
   fourier_.backward(velocity.views());
 }
 
 void StokesSolver::pressure(const VectorField &force, const Forcing &forcing,
-                            const ScalarField &pressure)
+                            const ScalarField &pressure, const ScalarField *source)
 {
   const Components<Complex, 1> *const kept = modes_->kept_pressure();
   if (!kept && !pressure_modes_.bytes()) pressure_modes_ = Components<Complex, 1>(fourier_.modes());
   const View<Complex> modes = kept ? (*kept)[0] : pressure_modes_[0];
-  if (!kept) {
-    fourier_.forward(force.views());
-    modes_->solve(spectrum(), forcing, &modes, nullptr);
-  }
+  if (!kept) solve(force, forcing, &modes, source);
   std::copy_n(modes.data, modes.box.size(), fourier_.spectrum(0).data);
   fourier_.backward(pressure.views());
 }

@@ -22,9 +22,10 @@ class StokesSolver {
   void velocity(const VectorField &force, const Forcing &forcing, const VectorField &velocity,
                 const ScalarField *source = nullptr);
 
-  /// Sets the pressure (mean zero) that belongs to the force; costs a solve, and memory at the
-  /// first call. That of a projection is the one of the last solve.
-  void pressure(const VectorField &force, const Forcing &forcing, const ScalarField &pressure);
+  /// Sets the pressure (mean zero) that belongs to the force and the source; costs a solve, and
+  /// memory at the first call. That of a projection is the one of the last solve.
+  void pressure(const VectorField &force, const Forcing &forcing, const ScalarField &pressure,
+                const ScalarField *source = nullptr);
 
   /// The modes kept from solve to solve (none but the pressure of a projection), and where they
   /// are.
@@ -36,6 +37,8 @@ class StokesSolver {
 
  private:
   std::array<View<Complex>, 3> spectrum() const;
+  void solve(const VectorField &force, const Forcing &forcing, const View<Complex> *pressure,
+             const ScalarField *source);
 
   Fourier fourier_;
   std::unique_ptr<ModeSolver> modes_;
