@@ -1,0 +1,42 @@
+#pragma once
+
+#include "fluid/field.h"
+#include "fluid/grid.h"
+
+#include <functional>
+#include <vector>
+
+namespace fluid {
+
+/// A part of the grid in which fluid appears or vanishes: the cells whose centres lie in it. The
+/// rate per volume is proportional to their torsion_function(), so that it falls to zero at the
+/// sides of the part, spread further by a `variance` along each direction, in cells squared: 0 to 1.
+/// It does not depend on the decomposition.
+class SmoothSource {
+ public:
+  /// Collective.
+  SmoothSource(const Grid &grid, const Decomposition &decomposition,
+               const std::function<bool(const Real3 &)> &contains, double variance = 0);
+
+  /// Of the cells whose centres lie in the part.
+  double volume() const { return volume_; }
+
+  /// Adds fluid of so much volume per time to the rates per volume on this rank's brick.
+  void add(double rate, const ScalarField &supply) const;
+
+  /// Mean with the weights of the source: times the rate, what the source does as work against this
+  /// pressure. Collective.
+  double mean(const ScalarField &pressure, MPI_Comm comm) const;
+
+  std::size_t bytes() const { return mine_.capacity() * sizeof(Cell); }
+
+ private:
+  struct Cell {
+    Index3 place;
+    double weight;    ///< rate per volume for a rate of 1
+  };
+  std::vector<Cell> mine_;
+  double cell_volume_, volume_ = 0;
+};
+
+}    // namespace fluid
