@@ -67,6 +67,7 @@ int DrivenFlow::layers_needed() const
 void DrivenFlow::build()
 {
   inside_.forget();
+  if (ports_) ports_->forget();
   const auto &cells = settings_.cells;
   grid_ = std::make_unique<Grid3d>(lmp, world, cells[0], cells[1], cells[2]);
   int lo[3], hi[3], outlo[3], outhi[3];
@@ -129,12 +130,14 @@ void DrivenFlow::set_time_now()
 {
   fraction_ = 1;
   set_forcing(forcing_.evaluate());
+  if (ports_) ports_->evaluate();
 }
 
 void DrivenFlow::begin_step(bool again)
 {
   if (controls_flow_rate() && !again) forcing_.set_measured(rate_inside());
   forcing_.begin_step(again);
+  if (ports_) ports_->begin_step(again);
   if (walls_) walls_->begin_step(again);
 }
 
@@ -142,6 +145,7 @@ void DrivenFlow::set_time(double fraction)
 {
   place_walls(fraction);
   set_forcing(forcing_.at(fraction));
+  if (ports_) ports_->set_time(fraction);
 }
 
 void DrivenFlow::place_walls(double fraction)
@@ -202,6 +206,7 @@ void DrivenFlow::solve(CollectiveStop &stop, bool with_walls)
     if (stop.trying) stop.check();    // wrong forces must not get into what walls remember
     spread_walls(uniform, stop);
   }
+  if (ports_) ports_->supply(*flow_, inside_);
   if (flow_->has_force()) {
     stop.check();
     exchanging_.start();
@@ -367,6 +372,12 @@ std::array<double, 3> DrivenFlow::mean_inside()
   const double share = box_volume() / inside_volume();
   for (int d = 0; d < 3; ++d) mean[d] -= share * excess_[d];
   return mean;
+}
+
+double DrivenFlow::port_pressure(const Port *port)
+{
+  finish_evaluation();
+  return ports_->pressure(port, *flow_, inside_, version_) / force->ftm2v;
 }
 
 double DrivenFlow::driving_force(int d)

@@ -3,6 +3,7 @@
 
 #include "coupling/rbc_flow_forcing.h"
 #include "coupling/rbc_flow_inside.h"
+#include "coupling/rbc_flow_ports.h"
 #include "coupling/rbc_fluid_settings.h"
 #include "coupling/rbc_rigid_walls.h"
 #include "coupling/rbc_scene_table.h"
@@ -52,12 +53,16 @@ class DrivenFlow : public StepPart, protected Pointers {
   bool is_driven() const { return driven_; }
   RigidWalls *walls() { return walls_.get(); }
   const RigidWalls *walls() const { return walls_.get(); }
+  const FlowPorts *ports() const { return ports_.get(); }
 
   /// What drives the flow at the time of set_time...().
   const fluid::Forcing &forcing() const { return forcing_now_; }
 
   /// Something changes the flow from step to step even without markers.
-  bool varies() const { return forcing_.varies() || (walls_ && walls_->moves()); }
+  bool varies() const
+  {
+    return forcing_.varies() || (walls_ && walls_->moves()) || (ports_ && ports_->varies());
+  }
 
   // Time. Collective where forcing or walls depend on variables.
 
@@ -177,6 +182,10 @@ class DrivenFlow : public StepPart, protected Pointers {
   std::array<double, 3> mean_inside();
   double inside_volume() { return inside_.volume(*flow_); }
 
+  /// Of a port of this flow: volume of its cells, and mean pressure less that in the last port.
+  double port_volume(const Port *port) { return ports_->volume(port, *flow_, inside_); }
+  double port_pressure(const Port *port);
+
   /// Body force, or the pressure gradient that balances all forces where the mean velocity is held;
   /// force density.
   double driving_force(int d);
@@ -199,6 +208,7 @@ class DrivenFlow : public StepPart, protected Pointers {
   std::unique_ptr<Grid3d> grid_;
   std::unique_ptr<fluid::Flow> flow_;
   std::unique_ptr<RigidWalls> walls_;    ///< null without walls
+  std::unique_ptr<FlowPorts> ports_;     ///< null without ports
   CollectiveStop stop_;
   SceneTable scene_;
 
@@ -229,6 +239,7 @@ class DrivenFlow : public StepPart, protected Pointers {
 
   int layers_needed() const;
   void take_demands(const std::vector<FluidClient *> &clients, const std::string &fluid_id);
+  void connect_ports(std::vector<const Port *> ports);
   void connect_walls(const std::vector<WallGroup *> &groups);
   void warn_of_idle_forcing() const;
   void warn_of_vessel_at_rest() const;

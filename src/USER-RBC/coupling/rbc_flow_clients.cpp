@@ -26,6 +26,7 @@ void DrivenFlow::take_demands(const std::vector<FluidClient *> &clients,
 {
   driven_ = sheets_ = layers_ = false;
   std::vector<WallGroup *> groups;
+  std::vector<const Port *> ports;
   for (FluidClient *client : clients) {
     if (client->fluid_id() != fluid_id) continue;
     if (client->drives_flow()) {
@@ -35,8 +36,28 @@ void DrivenFlow::take_demands(const std::vector<FluidClient *> &clients,
     sheets_ = sheets_ || client->has_sheets();
     layers_ = layers_ || client->has_layers(settings_.equations.viscosity);
     if (client->wall_group()) groups.push_back(client->wall_group());
+    if (client->port()) ports.push_back(client->port());
   }
+  connect_ports(std::move(ports));
   connect_walls(groups);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void DrivenFlow::connect_ports(std::vector<const Port *> ports)
+{
+  if (ports.empty()) {
+    if (ports_) flow_->end_supply();
+    ports_.reset();
+    return;
+  }
+  const std::string &style = ports.front()->style;
+  if (has_inertia()) error->all(FLERR, "{} needs {} inertia none", style, inside_.style());
+  if (controls_flow_rate())
+    error->all(FLERR, "{} cannot be used with {} mean {} ...: the flows of ports drive the fluid",
+               style, inside_.style(), "xyz"[forcing_.held_direction()]);
+  if (!ports_) ports_ = std::make_unique<FlowPorts>(lmp);
+  ports_->connect(std::move(ports));
 }
 
 /* ----------------------------------------------------------------------
@@ -65,6 +86,7 @@ void DrivenFlow::connect_walls(const std::vector<WallGroup *> &groups)
     wall_memory_ = {};
   }
   walls_->connect(groups, free_mean_);
+  if (ports_) ports_->set_kernel(walls_->first()->settings().kernel);
   warn_of_vessel_at_rest();
 }
 
@@ -76,7 +98,7 @@ void DrivenFlow::warn_of_vessel_at_rest() const
 {
   if (settings_.inside.empty() || settings_.plates || settings_.prescribed_mean || comm->me != 0)
     return;
-  if (controls_flow_rate() || walls_->moves()) return;
+  if (controls_flow_rate() || walls_->moves() || ports_) return;
   for (const NumberOrVariable &component : forcing_.body)
     if (component.is_variable() || component.value(lmp) != 0) return;
   error->warning(FLERR, "{} inside {}: nothing drives the flow there; use mean or body", style_,

@@ -1,6 +1,5 @@
 #include "coupling/rbc_flow_inside.h"
 
-#include "cells/rbc_region_enclosure.h"
 #include "domain.h"
 #include "error.h"
 #include "region.h"
@@ -8,6 +7,17 @@
 #include <utility>
 
 using namespace LAMMPS_NS;
+
+/* ---------------------------------------------------------------------- */
+
+Region *LAMMPS_NS::fixed_region(LAMMPS *lmp, const std::string &id, const std::string &use)
+{
+  Region *region = lmp->domain->get_region_by_id(id);
+  if (!region) lmp->error->all(FLERR, "Region ID {} for {} does not exist", id, use);
+  if (region->dynamic_check()) lmp->error->all(FLERR, "Region {} for {} must not move", id, use);
+  region->init();
+  return region;
+}
 
 /* ---------------------------------------------------------------------- */
 
@@ -21,20 +31,22 @@ FlowInside::FlowInside(LAMMPS *lmp, std::string style, std::string region) :
 fluid::Interior *FlowInside::find(const fluid::Flow &flow)
 {
   if (interior_ || region_id_.empty()) return interior_.get();
-  Region *region = domain->get_region_by_id(region_id_);
-  if (!region) error->all(FLERR, "Region ID {} for {} inside does not exist", region_id_, style_);
-  if (region->dynamic_check())
-    error->all(FLERR, "Region {} for {} inside must not move", region_id_, style_);
-  region->init();
-  const RegionEnclosure enclosure(region, domain);
+  const auto region = enclosure();
   interior_ = std::make_unique<fluid::Interior>(flow.grid(), flow.decomposition(),
                                                 [&](const fluid::Real3 &x) {
-                                                  return enclosure.contains({x[0], x[1], x[2]});
+                                                  return region->contains({x[0], x[1], x[2]});
                                                 });
   if (interior_->volume() == 0)
     error->all(FLERR, "Region {} for {} inside holds nothing of the simulation box", region_id_,
                style_);
   return interior_.get();
+}
+
+std::unique_ptr<RegionEnclosure> FlowInside::enclosure() const
+{
+  if (region_id_.empty()) return nullptr;
+  return std::make_unique<RegionEnclosure>(fixed_region(lmp, region_id_, style_ + " inside"),
+                                           domain);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -1,6 +1,7 @@
 #ifndef LMP_RBC_FLOW_INSIDE_H
 #define LMP_RBC_FLOW_INSIDE_H
 
+#include "cells/rbc_region_enclosure.h"
 #include "fluid/interior.h"
 #include "lmptype.h"
 #include "pointers.h"
@@ -9,6 +10,10 @@
 #include <string>
 
 namespace LAMMPS_NS {
+
+/// A region that stays where it is, ready to be asked for points. `use` ends the message if it does
+/// not exist, or moves.
+class Region *fixed_region(LAMMPS *lmp, const std::string &id, const std::string &use);
 
 /// The part of a flow that lies in a region, the inside of a vessel. Found when first asked for.
 class FlowInside : protected Pointers {
@@ -36,6 +41,9 @@ class FlowInside : protected Pointers {
   /// The share of each cell that lies inside, found at the first call; null if no region was given.
   /// It is an error if the region does not exist, moves, or is empty.
   fluid::Interior *find(const fluid::Flow &flow);
+
+  /// The region, null if none was given; errors as of find().
+  std::unique_ptr<RegionEnclosure> enclosure() const;
 
  private:
   std::string style_, region_id_;

@@ -6,6 +6,7 @@
 
 namespace LAMMPS_NS {
 
+struct Port;
 class WallGroup;
 
 /// A fix whose atoms are immersed in a fluid. At the start of a run fix rbc/fluid asks each of its
@@ -29,6 +30,9 @@ class FluidClient {
 
   /// Atoms on which the fluid does not slip, or null.
   virtual WallGroup *wall_group() { return nullptr; }
+
+  /// An opening of a vessel, or null.
+  virtual const Port *port() const { return nullptr; }
 
  protected:
   ~FluidClient() = default;

@@ -1,0 +1,38 @@
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(rbc/port,FixRBCPort);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_RBC_PORT_H
+#define LMP_FIX_RBC_PORT_H
+
+#include "coupling/rbc_fluid_client.h"
+#include "coupling/rbc_port.h"
+#include "fix.h"
+
+#include <string>
+
+namespace LAMMPS_NS {
+
+/// An opening of a vessel: arguments, checks and output.
+class FixRBCPort : public Fix, public FluidClient {
+ public:
+  FixRBCPort(class LAMMPS *, int, char **);
+  int setmask() override { return 0; }
+  void init() override;
+  double compute_vector(int) override;
+
+  const std::string &fluid_id() const override { return fluid; }
+  const Port *port() const override { return &opening; }
+
+ private:
+  std::string fluid;
+  Port opening;
+  class FixRBCFluid *fluid_fix = nullptr;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif
