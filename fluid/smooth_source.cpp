@@ -14,6 +14,12 @@ struct Share {
   double weight;
 };
 
+double sum(const std::vector<Share> &shares)
+{
+  return std::accumulate(shares.begin(), shares.end(), 0.0,
+                         [](double sum, const Share &share) { return sum + share.weight; });
+}
+
 /// Gives half of `variance` to the neighbours on both sides in direction d.
 std::vector<Share> spread_along(const Grid &grid, int d, double variance,
                                 const std::vector<Share> &shares)
@@ -67,24 +73,33 @@ SmoothSource::SmoothSource(const Grid &grid, const Decomposition &decomposition,
   const Box domain = grid.domain();
   std::vector<std::int64_t> mine;
   for_each_cell(decomposition.mine(), [&](int i, int j, int k) {
-    const Index3 place{i, j, k};
+    const Real3 index{i + 0.5, j + 0.5, k + 0.5};
     Real3 centre;
-    for (int d = 0; d < 3; ++d) centre[d] = grid.origin[d] + (place[d] + 0.5) * grid.spacing[d];
-    if (!contains(centre)) return;
-    mine.push_back(domain.offset(i, j, k));
+    for (int d = 0; d < 3; ++d) centre[d] = grid.origin[d] + index[d] * grid.spacing[d];
+    if (contains(centre)) mine.push_back(domain.offset(i, j, k));
   });
   const std::vector<std::int64_t> all = gathered(mine, decomposition.comm);
   volume_ = cell_volume_ * static_cast<double>(all.size());
   const std::vector<double> shape = torsion_function(grid, all);
-  const double total = cell_volume_ * std::accumulate(shape.begin(), shape.end(), 0.0);
-  std::vector<Share> shares;
-  for (std::size_t m = 0; m < all.size(); ++m) shares.push_back({all[m], shape[m] / total});
-  for (int d = 0; d < 3 && variance > 0; ++d) shares = spread_along(grid, d, variance, shares);
-  const auto &n = grid.cells;
-  for (const auto &[cell, weight] : shares) {
-    const Index3 place{int(cell % n[0]), int(cell / n[0] % n[1]), int(cell / n[0] / n[1])};
-    if (decomposition.mine().contains(place)) mine_.push_back({place, weight});
+  const auto place = [n = grid.cells](std::int64_t cell) {
+    return Index3{int(cell % n[0]), int(cell / n[0] % n[1]), int(cell / n[0] / n[1])};
+  };
+  const auto is_mine = [&](std::int64_t cell) {
+    return decomposition.mine().contains(place(cell));
+  };
+
+  std::vector<Share> shares, core;
+  const double half = all.empty() ? 0 : *std::max_element(shape.begin(), shape.end()) / 2;
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    shares.push_back({all[m], shape[m]});
+    if (shape[m] > half) core.push_back({all[m], shape[m]});
   }
+  for (int d = 0; d < 3 && variance > 0; ++d) shares = spread_along(grid, d, variance, shares);
+  const double total = cell_volume_ * sum(shares), core_total = sum(core);
+  for (const auto &[cell, weight] : shares)
+    if (is_mine(cell)) mine_.push_back({place(cell), weight / total});
+  for (const auto &[cell, weight] : core)
+    if (is_mine(cell)) core_.push_back({place(cell), weight / core_total});
 }
 
 void SmoothSource::add(double rate, const ScalarField &supply) const
@@ -93,11 +108,11 @@ void SmoothSource::add(double rate, const ScalarField &supply) const
     supply[0](cell.place[0], cell.place[1], cell.place[2]) += rate * cell.weight;
 }
 
-double SmoothSource::mean(const ScalarField &pressure, MPI_Comm comm) const
+double SmoothSource::core_mean(const ScalarField &values, MPI_Comm comm) const
 {
   double sum = 0;
-  for (const Cell &cell : mine_)
-    sum += cell_volume_ * cell.weight * pressure[0](cell.place[0], cell.place[1], cell.place[2]);
+  for (const Cell &cell : core_)
+    sum += cell.weight * values[0](cell.place[0], cell.place[1], cell.place[2]);
   MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, comm);
   return sum;
 }

@@ -24,18 +24,19 @@ class SmoothSource {
   /// Adds fluid of so much volume per time to the rates per volume on this rank's brick.
   void add(double rate, const ScalarField &supply) const;
 
-  /// Mean with the weights of the source: times the rate, what the source does as work against this
-  /// pressure. Collective.
-  double mean(const ScalarField &pressure, MPI_Comm comm) const;
+  /// Mean over the core, where the torsion function is above half of its maximum, with this function
+  /// as weight. What a kernel blurs at the sides has no part in it. Collective.
+  double core_mean(const ScalarField &values, MPI_Comm comm) const;
 
-  std::size_t bytes() const { return mine_.capacity() * sizeof(Cell); }
+  std::size_t bytes() const { return (mine_.capacity() + core_.capacity()) * sizeof(Cell); }
 
  private:
   struct Cell {
     Index3 place;
-    double weight;    ///< rate per volume for a rate of 1
+    double weight;
   };
-  std::vector<Cell> mine_;
+  std::vector<Cell> mine_;    ///< with the rate per volume for a rate of 1
+  std::vector<Cell> core_;    ///< with shares of the mean
   double cell_volume_, volume_ = 0;
 };
 

@@ -187,10 +187,8 @@ void FixRBCFluid::final_integrate()
     flow->set_time(0.5);
   } else if (!flow->varies())
     return;
-  else if (flow->controls_flow_rate())
-    flow->correct_flow_rate();
   else
-    flow->set_time_now();
+    flow->correct_flow_rate();
   advance_alone();
 }
 

@@ -1,10 +1,13 @@
 #include "fix_rbc_port.h"
 
+#include "comm.h"
 #include "error.h"
 #include "fix_rbc_fluid.h"
 #include "modify.h"
 #include "support/rbc_arguments.h"
 #include "update.h"
+
+#include <vector>
 
 using namespace LAMMPS_NS;
 
@@ -17,14 +20,19 @@ FixRBCPort::FixRBCPort(LAMMPS *lmp, int narg, char **arg) :
   size_vector = 3;
   global_freq = 1;
   extvector = 0;
+  restart_global = 1;
 
   opening.style = fmt::format("Fix rbc/port {}", id);
   Arguments args(lmp, "fix rbc/port", narg, arg, 4);
-  args.read({{"region", [&] { opening.region = args.text(); }}, {"flow", [&] {
-                                                                   opening.rate =
-                                                                       args.number_or_variable();
-                                                                   opening.has_rate = true;
-                                                                 }}});
+  const auto give = [&](Port::Given given) {
+    if (opening.given != Port::Given::nothing)
+      args.fail("{}: a port has one flow or one pressure", opening.style);
+    opening.given = given;
+    opening.value = args.number_or_variable();
+  };
+  args.read({{"region", [&] { opening.region = args.text(); }},
+             {"flow", [&] { give(Port::Given::rate); }},
+             {"pressure", [&] { give(Port::Given::pressure); }}});
   if (opening.region.empty()) error->all(FLERR, "{} needs a region", opening.style);
 }
 
@@ -48,4 +56,27 @@ double FixRBCPort::compute_vector(int n)
   DrivenFlow &flow = fluid_fix->driven_flow();
   if (n == 0) return flow.ports()->rate(&opening);
   return n == 1 ? flow.port_pressure(&opening) : flow.port_volume(&opening);
+}
+
+/* ----------------------------------------------------------------------
+   how all ports respond; the first of them takes it up
+------------------------------------------------------------------------- */
+
+void FixRBCPort::write_restart(FILE *fp)
+{
+  std::vector<double> memory;
+  if (fluid_fix && fluid_fix->driven_flow().ports())
+    memory = fluid_fix->driven_flow().port_memory();
+  if (comm->me != 0) return;
+  const double count = static_cast<double>(memory.size());
+  const int size = static_cast<int>((1 + memory.size()) * sizeof(double));
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(&count, sizeof(double), 1, fp);
+  fwrite(memory.data(), sizeof(double), memory.size(), fp);
+}
+
+void FixRBCPort::restart(char *buffer)
+{
+  const auto numbers = reinterpret_cast<const double *>(buffer);
+  opening.remembered.assign(numbers + 1, numbers + 1 + static_cast<std::size_t>(numbers[0]));
 }

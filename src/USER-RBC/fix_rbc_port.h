@@ -11,6 +11,7 @@ FixStyle(rbc/port,FixRBCPort);
 #include "coupling/rbc_port.h"
 #include "fix.h"
 
+#include <cstdio>
 #include <string>
 
 namespace LAMMPS_NS {
@@ -22,9 +23,11 @@ class FixRBCPort : public Fix, public FluidClient {
   int setmask() override { return 0; }
   void init() override;
   double compute_vector(int) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
 
   const std::string &fluid_id() const override { return fluid; }
-  const Port *port() const override { return &opening; }
+  Port *port() override { return &opening; }
 
  private:
   std::string fluid;

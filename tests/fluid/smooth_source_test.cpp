@@ -81,7 +81,7 @@ TEST(SmoothSource, GivesItsRate)
   for (const Layout &layout : layouts(grid)) {
     const SmoothSource source(grid, layout.decomposition, ball);
     const Box &brick = layout.decomposition.mine();
-    ScalarField supply(brick), ones(brick);
+    ScalarField supply(brick), ones(brick), radius(brick);
     source.add(-2.5, supply);
     double total = 0;
     Error error;
@@ -89,12 +89,16 @@ TEST(SmoothSource, GivesItsRate)
       total += supply[0](i, j, k) * grid.cell_volume();
       error.add(supply[0](i, j, k) - expected[0](i, j, k));
       ones[0](i, j, k) = 1;
+      const Real3 x = location(grid, centre, i, j, k);
+      radius[0](i, j, k) = std::hypot(x[0] - 4, x[1] - 4.3, x[2] - 10);
       const bool inside = ball(location(grid, centre, i, j, k));
       EXPECT_EQ(supply[0](i, j, k) < 0, inside);
     });
     EXPECT_NEAR(sum(total), -2.5, 1e-13);
     EXPECT_EQ(error.over_ranks().largest, 0);
-    EXPECT_NEAR(source.mean(ones, MPI_COMM_WORLD), 1, 1e-13);
+    EXPECT_NEAR(source.core_mean(ones, MPI_COMM_WORLD), 1, 1e-13);
+    // of r^2 (R^2 - r^2), r below R / sqrt(2): 0.505 R, R up to half a cell larger
+    EXPECT_NEAR(source.core_mean(radius, MPI_COMM_WORLD), 0.505 * 3.75, 0.505 * 0.25);
     EXPECT_EQ(source.volume(), reference.volume());
     EXPECT_NEAR(source.volume() / (4 * pi / 3 * std::pow(3.5, 3)), 1, 0.06);
   }

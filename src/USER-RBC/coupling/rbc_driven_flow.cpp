@@ -136,6 +136,7 @@ void DrivenFlow::set_time_now()
 void DrivenFlow::begin_step(bool again)
 {
   if (controls_flow_rate() && !again) forcing_.set_measured(rate_inside());
+  if (ports_ && ports_->controls() && !again) ports_->set_measured(port_pressures());
   forcing_.begin_step(again);
   if (ports_) ports_->begin_step(again);
   if (walls_) walls_->begin_step(again);
@@ -372,12 +373,6 @@ std::array<double, 3> DrivenFlow::mean_inside()
   const double share = box_volume() / inside_volume();
   for (int d = 0; d < 3; ++d) mean[d] -= share * excess_[d];
   return mean;
-}
-
-double DrivenFlow::port_pressure(const Port *port)
-{
-  finish_evaluation();
-  return ports_->pressure(port, *flow_, inside_, version_) / force->ftm2v;
 }
 
 double DrivenFlow::driving_force(int d)

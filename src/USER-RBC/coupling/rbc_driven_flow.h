@@ -89,14 +89,18 @@ class DrivenFlow : public StepPart, protected Pointers {
   /// is.
   void place_walls(double fraction);
 
-  /// The mean velocity inside a vessel is held. correct_flow_rate() adjusts the forcing by what the
-  /// last solve gave. After the solve at the start of a run, probe_flow_rate() tells whether there
+  /// The mean velocity inside a vessel is held, or the pressures in its ports are.
+  /// correct_flow_rate() adjusts what drives the flow by what the last solve gave, and is then as
+  /// set_time_now(). After the solve at the start of a run, probe_flow_rate() tells whether there
   /// must be another one, for a probe of the response or the forcing that follows from it.
   /// Collective.
   bool controls_flow_rate() const { return forcing_.held_direction() >= 0; }
   void correct_flow_rate();
   bool probe_flow_rate();
-  bool is_probing_flow_rate() const { return controls_flow_rate() && forcing_.probing(); }
+  bool is_probing_flow_rate() const
+  {
+    return (controls_flow_rate() && forcing_.probing()) || (ports_ && ports_->probing());
+  }
 
   /// Between hold_walls() and release_walls() evaluations may be made that are not to count: with
   /// `as_before` the walls go on from what they knew before. Collective.
@@ -186,6 +190,9 @@ class DrivenFlow : public StepPart, protected Pointers {
   double port_volume(const Port *port) { return ports_->volume(port, *flow_, inside_); }
   double port_pressure(const Port *port);
 
+  /// What the control of pressures needs to know of steps before; for restart files. Collective.
+  std::vector<double> port_memory();
+
   /// Body force, or the pressure gradient that balances all forces where the mean velocity is held;
   /// force density.
   double driving_force(int d);
@@ -239,12 +246,16 @@ class DrivenFlow : public StepPart, protected Pointers {
 
   int layers_needed() const;
   void take_demands(const std::vector<FluidClient *> &clients, const std::string &fluid_id);
-  void connect_ports(std::vector<const Port *> ports);
+  void connect_ports(std::vector<Port *> ports);
   void connect_walls(const std::vector<WallGroup *> &groups);
   void warn_of_idle_forcing() const;
   void warn_of_vessel_at_rest() const;
   void start_control();
   void continue_control();
+  void start_port_control();
+  void continue_port_control();
+  bool probe_ports();
+  const std::vector<double> &port_pressures();
   double rate_inside() { return mean_inside()[forcing_.held_direction()]; }
   bool holds_box_mean() const;
   void set_forcing(const fluid::Forcing &forcing);

@@ -19,6 +19,7 @@ void DrivenFlow::start_run(const std::vector<FluidClient *> &clients, const std:
   take_demands(clients, fluid_id);
   if (layers_needed() != ghost_layers_) build();
   if (controls_flow_rate()) continue_control();
+  if (ports_ && ports_->controls()) continue_port_control();
 }
 
 void DrivenFlow::take_demands(const std::vector<FluidClient *> &clients,
@@ -26,7 +27,7 @@ void DrivenFlow::take_demands(const std::vector<FluidClient *> &clients,
 {
   driven_ = sheets_ = layers_ = false;
   std::vector<WallGroup *> groups;
-  std::vector<const Port *> ports;
+  std::vector<Port *> ports;
   for (FluidClient *client : clients) {
     if (client->fluid_id() != fluid_id) continue;
     if (client->drives_flow()) {
@@ -44,7 +45,7 @@ void DrivenFlow::take_demands(const std::vector<FluidClient *> &clients,
 
 /* ---------------------------------------------------------------------- */
 
-void DrivenFlow::connect_ports(std::vector<const Port *> ports)
+void DrivenFlow::connect_ports(std::vector<Port *> ports)
 {
   if (ports.empty()) {
     if (ports_) flow_->end_supply();

@@ -47,12 +47,14 @@ void DrivenFlow::continue_control()
 
 void DrivenFlow::correct_flow_rate()
 {
-  forcing_.set_measured(rate_inside());
+  if (controls_flow_rate()) forcing_.set_measured(rate_inside());
+  if (ports_ && ports_->controls()) ports_->set_measured(port_pressures());
   set_time_now();
 }
 
 bool DrivenFlow::probe_flow_rate()
 {
+  if (ports_ && ports_->controls()) return probe_ports();
   if (!controls_flow_rate()) return false;
   if (forcing_.is_holding()) {
     if (forcing_.agrees(rate_inside())) return false;

@@ -3,6 +3,7 @@
 #include "cells/rbc_region_enclosure.h"
 #include "domain.h"
 #include "error.h"
+#include "force.h"
 #include "modify.h"
 #include "update.h"
 
@@ -17,6 +18,11 @@ using namespace LAMMPS_NS;
 
 static constexpr double SAME = 1.0e-9;
 
+// Solves of the same forces differ by less than this part of the pressures that rates cause, as in
+// FlowForcing.
+
+static constexpr double SAME_PRESSURE = 1.0e-3;
+
 // Where flow grows along a wall, and so does the flow in the layer that the kernel blurs, half of
 // what the layer takes must be supplied beyond the wall: otherwise fluid passes the wall. With this
 // spread none does, but for 1e-3 of the flow where a tube is 14 cells wide (see bench/ports.sh).
@@ -28,28 +34,52 @@ static double spread_of(fluid::KernelKind kernel)
 
 /* ---------------------------------------------------------------------- */
 
-void FlowPorts::connect(std::vector<const Port *> ports)
+void FlowPorts::connect(std::vector<Port *> ports)
 {
-  const Port *rest = nullptr;
-  for (const Port *port : ports) {
-    port->rate.check(lmp, "fix rbc/port");
-    if (port->has_rate) continue;
-    if (rest)
-      error->all(FLERR, "{} and {} have no flow: only one port may be without, it takes the rest",
-                 rest->style, port->style);
-    rest = port;
+  for (const Port *port : ports) port->value.check(lmp, "fix rbc/port");
+  if (ports != ports_) {
+    end_.assign(ports.size(), 0.0);
+    known_ = holding_ = false;
   }
-  if (ports != ports_) end_.assign(ports.size(), 0.0);
   ports_ = std::move(ports);
+  find_roles();
+  restore_control();
   forget();
   supplied_.resize(ports_.size());
-  measured_ = -1;
+}
+
+/* ----------------------------------------------------------------------
+   which ports are controlled, and which one takes the rest
+------------------------------------------------------------------------- */
+
+void FlowPorts::find_roles()
+{
+  controlled_.clear();
+  const Port *without = nullptr;
+  rest_ = ports_.size() - 1;
+  for (std::size_t n = 0; n < ports_.size(); ++n) {
+    if (ports_[n]->given == Port::Given::pressure) controlled_.push_back(n);
+    if (ports_[n]->given != Port::Given::nothing) continue;
+    if (without)
+      error->all(FLERR,
+                 "{} and {} have neither flow nor pressure: only one port may be without, it takes "
+                 "the rest",
+                 without->style, ports_[n]->style);
+    without = ports_[n];
+    rest_ = n;
+  }
+  if (controlled_.empty()) return;
+  rest_ = controlled_.back();
+  if (without)
+    error->all(FLERR,
+               "{} has neither flow nor pressure: as {} has a pressure, give one or the other",
+               without->style, ports_[rest_]->style);
 }
 
 bool FlowPorts::varies() const
 {
-  return std::any_of(ports_.begin(), ports_.end(),
-                     [](const Port *port) { return port->rate.is_variable(); });
+  return controls() || std::any_of(ports_.begin(), ports_.end(),
+                                   [](const Port *port) { return port->value.is_variable(); });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -57,19 +87,20 @@ bool FlowPorts::varies() const
 void FlowPorts::evaluate()
 {
   modify->clearstep_compute();
+  given_.resize(ports_.size());
   for (std::size_t n = 0; n < ports_.size(); ++n) {
-    end_[n] = ports_[n]->rate.value(lmp);
-    if (!std::isfinite(end_[n]))
-      error->all(FLERR, "{}: its flow is not a number at step {}", ports_[n]->style,
-                 update->ntimestep);
+    const Port &port = *ports_[n];
+    given_[n] = port.value.value(lmp);
+    if (!std::isfinite(given_[n]))
+      error->all(FLERR, "{}: its {} is not a number at step {}", port.style,
+                 port.given == Port::Given::pressure ? "pressure" : "flow", update->ntimestep);
+    end_[n] = port.given == Port::Given::rate ? given_[n] : 0;
   }
   modify->addstep_compute(update->ntimestep + 1);
 
-  const auto rest =
-      std::find_if(ports_.begin(), ports_.end(), [](const Port *port) { return !port->has_rate; });
-  if (rest == ports_.end()) check_rates();
-  const auto takes = rest == ports_.end() ? end_.end() - 1 : end_.begin() + (rest - ports_.begin());
-  *takes -= std::accumulate(end_.begin(), end_.end(), 0.0);
+  if (controls()) control();
+  if (ports_[rest_]->given == Port::Given::rate) check_rates();
+  end_[rest_] -= std::accumulate(end_.begin(), end_.end(), 0.0);
   now_ = end_;
 }
 
@@ -133,6 +164,81 @@ void FlowPorts::find_sources(const fluid::Flow &flow, const FlowInside &inside)
   }
 }
 
+/* ----------------------------------------------------------------------
+   of the ports with a pressure but for the one that takes the rest
+------------------------------------------------------------------------- */
+
+std::vector<double> FlowPorts::of_controlled(const std::vector<double> &values) const
+{
+  std::vector<double> some;
+  for (std::size_t n : controlled_)
+    if (n != rest_) some.push_back(values[n] - values[rest_]);
+  return some;
+}
+
+void FlowPorts::control()
+{
+  std::vector<double> wanted = of_controlled(given_);
+  for (double &pressure : wanted) pressure *= force->ftm2v;
+  if (is_measured_) control_.adjust(measured_, wanted);
+  is_measured_ = false;
+  for (std::size_t n = 0; n < wanted.size(); ++n) end_[controlled_[n]] = control_.inputs()[n];
+}
+
+void FlowPorts::start_control(double probe)
+{
+  known_ = true;
+  is_measured_ = holding_ = false;
+  control_.probe(static_cast<int>(controlled_.size()) - 1, probe);
+}
+
+void FlowPorts::set_measured(const std::vector<double> &pressures)
+{
+  if (!holding_) measured_ = of_controlled(pressures);
+  holding_ = false;
+  is_measured_ = true;
+}
+
+void FlowPorts::hold_measured(const std::vector<double> &pressures)
+{
+  if (!holding_) measured_ = of_controlled(pressures);
+  holding_ = true;
+}
+
+bool FlowPorts::agrees(const std::vector<double> &pressures) const
+{
+  const std::vector<double> now = of_controlled(pressures);
+  double apart = 0;
+  for (std::size_t n = 0; n < now.size(); ++n)
+    apart = std::max(apart, std::abs(now[n] - measured_[n]));
+  return apart <= SAME_PRESSURE * control_.effect();
+}
+
+/* ----------------------------------------------------------------------
+   measured pressures, and what the control knows
+------------------------------------------------------------------------- */
+
+std::vector<double> FlowPorts::control_state(const std::vector<double> &pressures) const
+{
+  if (!knows_response()) return {};
+  std::vector<double> state = holding_ ? measured_ : of_controlled(pressures);
+  const std::vector<double> known = control_.state();
+  state.insert(state.end(), known.begin(), known.end());
+  return state;
+}
+
+void FlowPorts::restore_control()
+{
+  const std::vector<double> state = std::exchange(ports_.front()->remembered, {});
+  const std::size_t count = controlled_.empty() ? 0 : controlled_.size() - 1;
+  if (control_.inputs().size() != count) known_ = false;
+  if (!controls() || state.size() < count) return;
+  const auto first = state.begin() + static_cast<std::ptrdiff_t>(count);
+  if (!control_.restore(static_cast<int>(count), {first, state.end()})) return;
+  measured_.assign(state.begin(), first);
+  known_ = holding_ = true;
+}
+
 /* ---------------------------------------------------------------------- */
 
 std::size_t FlowPorts::place(const Port *port) const
@@ -152,18 +258,25 @@ double FlowPorts::volume(const Port *port, const fluid::Flow &flow, const FlowIn
   return sources_[place(port)].volume();
 }
 
-double FlowPorts::pressure(const Port *port, fluid::Flow &flow, const FlowInside &inside,
-                           bigint version)
+const std::vector<double> &FlowPorts::pressures(fluid::Flow &flow, const FlowInside &inside,
+                                                bigint version)
 {
-  if (measured_ != version) {
-    if (sources_.empty()) find_sources(flow, inside);
-    const fluid::ScalarField &pressure = flow.pressure();
-    pressures_.clear();
-    for (const fluid::SmoothSource &source : sources_)
-      pressures_.push_back(source.mean(pressure, world));
-  }
-  measured_ = version;
-  return pressures_[place(port)] - pressures_.back();
+  if (measured_version_ == version) return pressures_;
+  measured_version_ = version;
+  if (sources_.empty()) find_sources(flow, inside);
+  const fluid::ScalarField &pressure = flow.pressure();
+  pressures_.clear();
+  for (const fluid::SmoothSource &source : sources_)
+    pressures_.push_back(source.core_mean(pressure, world));
+  const double level = pressures_[rest_];
+  for (double &value : pressures_) value -= level;
+  return pressures_;
+}
+
+double FlowPorts::pressure(const Port *port, const std::vector<double> &pressures) const
+{
+  const double level = controlled_.empty() || given_.empty() ? 0 : given_[rest_];
+  return pressures[place(port)] / force->ftm2v + level;
 }
 
 std::size_t FlowPorts::bytes() const

@@ -5,6 +5,7 @@
 #include "coupling/rbc_port.h"
 #include "fluid/smooth_source.h"
 #include "fluid/spreading.h"
+#include "motion/linear_control.h"
 
 #include <memory>
 #include <string>
@@ -12,13 +13,14 @@
 
 namespace LAMMPS_NS {
 
-/// The ports of a flow, whose rates sum to zero.
+/// The ports of a flow. Their rates sum to zero: one of them takes what the others leave. Where
+/// pressures are given, the rates of these ports are controlled; the last of them takes the rest.
 class FlowPorts : protected Pointers {
  public:
   using Pointers::Pointers;
 
   /// At the start of a run, collective. There must be a port.
-  void connect(std::vector<const Port *> ports);
+  void connect(std::vector<Port *> ports);
 
   /// Call when regions or the decomposition of the flow may have changed: cells are found anew with
   /// the next solve.
@@ -26,6 +28,7 @@ class FlowPorts : protected Pointers {
   {
     sources_.clear();
     stale_ = true;
+    measured_version_ = -1;
   }
 
   bool varies() const;
@@ -42,29 +45,59 @@ class FlowPorts : protected Pointers {
   /// Before a solve: takes the present rates into the flow. Collective.
   void supply(fluid::Flow &flow, const FlowInside &inside);
 
+  // Control of pressures, as of FlowForcing: what was measured is used by the next evaluate().
+
+  bool controls() const { return controlled_.size() > 1; }
+  bool probing() const { return controls() && control_.probing(); }
+  bool knows_response() const { return controls() && known_ && !control_.probing(); }
+  void start_control(double probe);
+  void set_measured(const std::vector<double> &pressures);
+  void hold_measured(const std::vector<double> &pressures);
+  bool is_holding() const { return holding_; }
+  bool agrees(const std::vector<double> &pressures) const;
+  std::vector<double> control_state(const std::vector<double> &pressures) const;
+
   /// Of the last solve; zero before the first.
   double rate(const Port *port) const;
 
   /// Volume of the cells of a port. Collective, like what follows.
   double volume(const Port *port, const fluid::Flow &flow, const FlowInside &inside);
 
-  /// Mean pressure in a port less that in the last, in units of the flow. Computed once for each
-  /// `version`, which costs a solve.
-  double pressure(const Port *port, fluid::Flow &flow, const FlowInside &inside, bigint version);
+  /// Mean pressures in the ports less that in the one which takes the rest, in units of the flow.
+  /// Computed once for each `version`, which costs a solve.
+  const std::vector<double> &pressures(fluid::Flow &flow, const FlowInside &inside, bigint version);
+
+  /// Of one of these pressures, with that of the port which takes the rest as it is given.
+  double pressure(const Port *port, const std::vector<double> &pressures) const;
 
   std::size_t bytes() const;
 
  private:
-  std::vector<const Port *> ports_;
+  std::vector<Port *> ports_;
+  std::size_t rest_ = 0;                   ///< the port that takes the rest
+  std::vector<std::size_t> controlled_;    ///< ports with a pressure
   fluid::KernelKind kernel_ = fluid::default_kernel;
   std::vector<fluid::SmoothSource> sources_;    ///< of the ports; empty until they are found
   std::vector<double> start_, end_, now_;       ///< rates in the step
-  std::vector<double> supplied_, pressures_;
-  bool stale_ = true;    ///< what was supplied, of other cells
-  bigint measured_ = -1;
+  std::vector<double> supplied_;
+  std::vector<double> given_;    ///< values of the ports at the end of the step
+  bool stale_ = true;            ///< what was supplied, of other cells
+
+  std::vector<double> pressures_;
+  bigint measured_version_ = -1;
+
+  rbc::LinearControl control_;
+  bool known_ = false;          // start_control() was called, or a restart file knows the response
+  bool is_measured_ = false;    // since the last change of the rates
+  bool holding_ = false;        // measured_ counts from the next step on
+  std::vector<double> measured_;
 
   std::size_t place(const Port *port) const;
+  void find_roles();
   void check_rates() const;
+  void control();
+  std::vector<double> of_controlled(const std::vector<double> &values) const;
+  void restore_control();
   void find_sources(const fluid::Flow &flow, const FlowInside &inside);
 };
 

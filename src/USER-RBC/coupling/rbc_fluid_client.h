@@ -32,7 +32,7 @@ class FluidClient {
   virtual WallGroup *wall_group() { return nullptr; }
 
   /// An opening of a vessel, or null.
-  virtual const Port *port() const { return nullptr; }
+  virtual Port *port() { return nullptr; }
 
  protected:
   ~FluidClient() = default;

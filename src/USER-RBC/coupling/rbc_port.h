@@ -4,6 +4,7 @@
 #include "support/rbc_number_or_variable.h"
 
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -11,8 +12,14 @@ namespace LAMMPS_NS {
 struct Port {
   std::string style;    ///< the fix, for messages
   std::string region;
-  bool has_rate = false;    ///< given; otherwise the port takes what is left by the others
-  NumberOrVariable rate;    ///< of the fluid that enters, volume per time
+
+  /// What is given: the volume of fluid that enters per time, the pressure, or nothing: the port
+  /// takes what the others leave.
+  enum class Given { rate, pressure, nothing };
+  Given given = Given::nothing;
+  NumberOrVariable value;
+
+  std::vector<double> remembered;    ///< from a restart file, of all ports, until a run begins
 };
 
 }    // namespace LAMMPS_NS

@@ -1,0 +1,76 @@
+#include "motion/linear_control.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+using rbc::LinearControl;
+using Numbers = LinearControl::Numbers;
+
+/// Three quantities, of which the first does not respond to the first input.
+Numbers system(const Numbers &inputs, double offset = 0)
+{
+  const double response[3][3] = {{0, 2, -0.5}, {2, 5, 1}, {-0.5, 1, 3}};
+  Numbers values;
+  for (int i = 0; i < 3; ++i) {
+    values.push_back(offset * (i + 1));
+    for (int j = 0; j < 3; ++j) values[i] += response[i][j] * inputs[j];
+  }
+  return values;
+}
+
+TEST(LinearControl, IsRightAfterItsProbes)
+{
+  const Numbers wanted{3, -1, 0.5};
+  for (const double size : {-0.1, 50.0}) {
+    LinearControl control;
+    control.probe(3, size);
+    int solves = 0;
+    for (; control.probing(); ++solves) control.adjust(system(control.inputs(), -20), wanted);
+    EXPECT_EQ(solves, 4);
+    const Numbers values = system(control.inputs(), -20);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(values[i], wanted[i], 1e-11);
+    EXPECT_NEAR(control.effect(), 60.5, 1e-10);
+  }
+}
+
+/// Off by the second difference of the disturbance, and not by wanted values that change.
+TEST(LinearControl, FollowsADisturbance)
+{
+  LinearControl control;
+  control.probe(3, 1);
+  while (control.probing()) control.adjust(system(control.inputs()), {1, 2, 3});
+  Numbers wanted{1, 2, 3};
+  double worst = 0;
+  for (int step = 0; step < 500; ++step) {
+    const Numbers values = system(control.inputs(), std::sin(0.02 * step));
+    for (int i = 0; i < 3 && step > 20; ++i)
+      worst = std::max(worst, std::abs(values[i] - wanted[i]) / (i + 1));
+    for (int i = 0; i < 3; ++i) wanted[i] = std::cos(0.5 * step + i);
+    control.adjust(values, wanted);
+  }
+  EXPECT_LT(worst, 1.01 * 0.02 * 0.02);
+  EXPECT_GT(worst, 0.9 * 0.02 * 0.02);
+}
+
+TEST(LinearControl, GoesOnFromItsState)
+{
+  LinearControl control, other;
+  control.probe(3, 1);
+  while (control.probing()) control.adjust(system(control.inputs()), {1, 2, 3});
+  control.adjust(system(control.inputs(), 1), {1, 2, 3});
+  EXPECT_FALSE(other.restore(2, control.state()));
+  EXPECT_TRUE(other.restore(3, control.state()));
+  EXPECT_FALSE(other.probing());
+  for (int step = 0; step < 5; ++step) {
+    EXPECT_EQ(other.inputs(), control.inputs());
+    const Numbers values = system(control.inputs(), std::sin(step));
+    control.adjust(values, {1, 2, 3});
+    other.adjust(values, {1, 2, 3});
+  }
+}
+
+}    // namespace
