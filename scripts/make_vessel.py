@@ -3,8 +3,9 @@
 mesh`.
 
 The vessel begins at x = 0, ends at x = length and is open there: in a box that is periodic in x and
-as long, it goes on for ever. Its axis is y = z = 0 (shift it with the region). All lengths are in
-one unit, um in `units micro`.
+as long, it goes on for ever. With --closed it has flat lids there, for a longer box and `fix
+rbc/port`. Its axis is y = z = 0 (shift it with the region). All lengths are in one unit, um in
+`units micro`.
 
 Shapes
   tube         straight and round
@@ -17,6 +18,7 @@ Examples
   make_vessel.py tube --length 45 --diameter 22.5 tube.stl
   make_vessel.py throat --unit 8 throat.stl                    # Figure 6 of Xu et al. 2017 for cells of 8 um
   make_vessel.py bifurcation --length 120 --diameter 20 --distance 24 fork.stl
+  make_vessel.py bifurcation --length 60 --diameter 16 --closed fork.stl       # for ports at both ends
 """
 import math
 import sys
@@ -132,6 +134,19 @@ def enclosed_volume(points, triangles):
     return (area[:, 1:] * middle[:, 1:]).sum() / 2, np.linalg.norm(area, axis=1).sum()
 
 
+def with_lids(points, triangles):
+    """The same with a fan of triangles over each end."""
+    sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    key, back = sides @ [len(points), 1], sides[:, ::-1] @ [len(points), 1]
+    rim = sides[~np.isin(key, back)]
+    for end in (points[:, 0].min(), points[:, 0].max()):
+        here = rim[points[rim[:, 0], 0] == end]
+        middle = np.full(len(here), len(points))
+        points = np.concatenate([points, points[here[:, 0]].mean(axis=0)[None]])
+        triangles = np.concatenate([triangles, np.stack([here[:, 1], here[:, 0], middle], 1)])
+    return points, triangles
+
+
 def write_stl(path, points, triangles):
     corners = points[triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -156,6 +171,7 @@ def parse(words):
     parser.add_argument("--daughter-diameter", type=float, help="(2^(-1/3) diameters)")
     parser.add_argument("--distance", type=float, help="between the axes of the daughters (1.2 diameters)")
     parser.add_argument("--edge", type=float, help="of the triangles (a twentieth of the diameter)")
+    parser.add_argument("--closed", action="store_true", help="with lids on both ends")
     options = parser.parse_args(words)
     for name, shape in SIZES.items():
         if getattr(options, name) is not None and options.shape != shape:
@@ -200,6 +216,8 @@ def main(words):
     else:
         radius = tube_radius(options) if options.shape == "tube" else throat_radius(options)
         points, triangles = swept(radius, options.length, options.edge)
+    if options.closed:
+        points, triangles = with_lids(points, triangles)
     write_stl(options.output, points, triangles)
     volume, area = enclosed_volume(points, triangles)
     print(f"{options.output}: {len(triangles)} triangles, area {area:.6g}, volume {volume:.6g}, "

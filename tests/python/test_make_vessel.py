@@ -58,6 +58,18 @@ class Vessel(unittest.TestCase):
             self.assertAlmostEqual(area / (np.pi * 22.5 * 45), 1, delta=tolerance / 2)
             self.assertAlmostEqual(volume / (np.pi * 11.25**2 * 45), 1, delta=tolerance)
 
+    def test_lids_close_it(self):
+        for shape in ("tube", "throat", "bifurcation"):
+            corners = np.round(make(shape, "--length", 60, "--diameter", 16, "--edge", 1.6, "--closed"), 4) + 0.0
+            edges = Counter((tuple(t[i]), tuple(t[(i + 1) % 3])) for t in corners for i in range(3)
+                            if tuple(t[i]) != tuple(t[(i + 1) % 3]))
+            self.assertTrue(all(edges[b, a] == count for (a, b), count in edges.items()))
+            area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2
+            volumes = (area * corners.mean(axis=1)).sum(axis=0)    # the same by each direction, outward normals
+            np.testing.assert_allclose(volumes, area_and_volume(corners)[1], rtol=1e-5)
+            lids = area[np.ptp(corners[:, :, 0], axis=1) == 0]
+            self.assertAlmostEqual(np.linalg.norm(lids, axis=1).sum() / (2 * np.pi * 64), 1, delta=0.03)
+
     def test_throat_is_figure_6(self):
         corners = make("throat", "--unit", 8, "--edge", 0.8)
         self.check_surface(corners, 120.0)
