@@ -25,7 +25,7 @@ static constexpr double SAME_PRESSURE = 1.0e-3;
 
 // Where flow grows along a wall, and so does the flow in the layer that the kernel blurs, half of
 // what the layer takes must be supplied beyond the wall: otherwise fluid passes the wall. With this
-// spread none does, but for 1e-3 of the flow where a tube is 14 cells wide (see bench/ports.sh).
+// spread none does, but for 1e-3 of the flow where a tube is 14 cells wide (see examples/ports).
 
 static double spread_of(fluid::KernelKind kernel)
 {
