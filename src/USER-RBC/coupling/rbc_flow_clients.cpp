@@ -87,7 +87,8 @@ void DrivenFlow::connect_walls(const std::vector<WallGroup *> &groups)
     wall_memory_ = {};
   }
   walls_->connect(groups, free_mean_);
-  if (ports_) ports_->set_kernel(walls_->first()->settings().kernel);
+  const WallGroup::Settings &wall = walls_->first()->settings();
+  if (ports_) ports_->fit_to_wall(wall.kernel, wall.kind);
   warn_of_vessel_at_rest();
 }
 

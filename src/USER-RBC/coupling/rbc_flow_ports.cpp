@@ -27,9 +27,10 @@ static constexpr double SAME_PRESSURE = 1.0e-3;
 // the layer needs beyond the wall must be supplied there: otherwise it passes the wall. These spreads
 // leave 0.1 % of the flow in a tube 20 cells wide, 0.03 % in one of 40 (see examples/ports).
 
-static double spread_of(fluid::KernelKind kernel)
+static double spread_of(fluid::KernelKind kernel, fluid::MarkerKind kind)
 {
-  return kernel == fluid::KernelKind::peskin4 ? 0.36 : 0;
+  if (kernel == fluid::KernelKind::roma3) return 0;
+  return kind == fluid::MarkerKind::sheets ? 0.36 : 0.17;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -45,6 +46,7 @@ void FlowPorts::connect(std::vector<Port *> ports)
   find_roles();
   restore_control();
   forget();
+  spread_ = 0;    // until walls are known
   supplied_.resize(ports_.size());
 }
 
@@ -130,6 +132,11 @@ void FlowPorts::set_time(double fraction)
     now_[n] = start_[n] + fraction * (end_[n] - start_[n]);
 }
 
+void FlowPorts::fit_to_wall(fluid::KernelKind kernel, fluid::MarkerKind kind)
+{
+  spread_ = spread_of(kernel, kind);
+}
+
 /* ---------------------------------------------------------------------- */
 
 void FlowPorts::supply(fluid::Flow &flow, const FlowInside &inside)
@@ -157,7 +164,7 @@ void FlowPorts::find_sources(const fluid::Flow &flow, const FlowInside &inside)
       const rbc::Vec3 centre{x[0], x[1], x[2]};
       return opening.contains(centre) && (!vessel || vessel->contains(centre));
     };
-    sources_.emplace_back(flow.grid(), flow.decomposition(), contains, spread_of(kernel_));
+    sources_.emplace_back(flow.grid(), flow.decomposition(), contains, spread_);
     if (sources_.back().volume() == 0)
       error->all(FLERR, "Region {} for {} holds no centre of a cell of the fluid's grid{}",
                  port->region, use, vessel ? " inside the vessel" : "");

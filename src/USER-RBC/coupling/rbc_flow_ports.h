@@ -39,8 +39,8 @@ class FlowPorts : protected Pointers {
   void begin_step(bool again);
   void set_time(double fraction);
 
-  /// Kernel of the walls, to which what enters is fitted. Before a solve.
-  void set_kernel(fluid::KernelKind kernel) { kernel_ = kernel; }
+  /// Spreads what enters as such walls need it. Call before the cells are found.
+  void fit_to_wall(fluid::KernelKind kernel, fluid::MarkerKind kind);
 
   /// Before a solve: takes the present rates into the flow. Collective.
   void supply(fluid::Flow &flow, const FlowInside &inside);
@@ -74,9 +74,9 @@ class FlowPorts : protected Pointers {
 
  private:
   std::vector<Port *> ports_;
-  std::size_t rest_ = 0;                   ///< the port that takes the rest
-  std::vector<std::size_t> controlled_;    ///< ports with a pressure
-  fluid::KernelKind kernel_ = fluid::default_kernel;
+  std::size_t rest_ = 0;                        ///< the port that takes the rest
+  std::vector<std::size_t> controlled_;         ///< ports with a pressure
+  double spread_ = 0;                           ///< of what enters, see fluid::SmoothSource
   std::vector<fluid::SmoothSource> sources_;    ///< of the ports; empty until they are found
   std::vector<double> start_, end_, now_;       ///< rates in the step
   std::vector<double> supplied_;
