@@ -38,6 +38,14 @@ FixRBCPort::FixRBCPort(LAMMPS *lmp, int narg, char **arg) :
 
 /* ---------------------------------------------------------------------- */
 
+FixRBCPort::~FixRBCPort()
+{
+  auto *const flow = dynamic_cast<FixRBCFluid *>(modify->get_fix_by_id(fluid));
+  if (flow) flow->driven_flow().drop_ports();
+}
+
+/* ---------------------------------------------------------------------- */
+
 void FixRBCPort::init()
 {
   fluid_fix = dynamic_cast<FixRBCFluid *>(modify->get_fix_by_id(fluid));
@@ -56,6 +64,14 @@ double FixRBCPort::compute_vector(int n)
   DrivenFlow &flow = fluid_fix->driven_flow();
   if (n == 0) return flow.ports()->rate(&opening);
   return n == 1 ? flow.port_pressure(&opening) : flow.port_volume(&opening);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double FixRBCPort::memory_usage()
+{
+  if (!fluid_fix || !fluid_fix->driven_flow().ports()) return 0;
+  return static_cast<double>(fluid_fix->driven_flow().ports()->bytes(&opening));
 }
 
 /* ----------------------------------------------------------------------

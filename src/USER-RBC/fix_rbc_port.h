@@ -20,9 +20,11 @@ namespace LAMMPS_NS {
 class FixRBCPort : public Fix, public FluidClient {
  public:
   FixRBCPort(class LAMMPS *, int, char **);
+  ~FixRBCPort() override;
   int setmask() override { return 0; }
   void init() override;
   double compute_vector(int) override;
+  double memory_usage() override;
   void write_restart(FILE *) override;
   void restart(char *) override;
 

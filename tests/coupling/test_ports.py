@@ -230,6 +230,15 @@ class Unused(unittest.TestCase):
         modes = 16 * 0.6    # of the source: they stay with the solver
         self.assertLess(float(costs[1][-1][2]) - float(costs[0][-1][2]), modes)
 
+    def test_ports_that_are_gone_before_other_commands(self):
+        ports = dict(inlet="fix in all rbc/port flow region inlet pressure 0.02",
+                     outlet="fix out all rbc/port flow region outlet pressure 0")
+        after = ("thermo_style custom step\nunfix in\nbalance 1.0 x 0.4\nwrite_restart r\n"
+                 f"{ports['inlet']}\n{TUBE['thermo']}\n{TUBE['thermo_modify']}\nrun 0")
+        tables = run(tube(*SMALL, **ports, run="run 0\n" + after), 2).tables()
+        np.testing.assert_allclose(tables[1]["f_in[2]"], 0.02, atol=1e-6)
+        np.testing.assert_allclose(tables[1]["f_in[1]"], tables[0]["f_in[1]"], rtol=1e-3)
+
     def test_a_solve_with_ports_costs_a_transform_more(self):
         """And two scalar fields: the supply and its modes."""
         memory = [float(re.search(r"(\S+) bytes of memory per cell", run(

@@ -48,7 +48,7 @@ void DrivenFlow::take_demands(const std::vector<FluidClient *> &clients,
 void DrivenFlow::connect_ports(std::vector<Port *> ports)
 {
   if (ports.empty()) {
-    if (ports_) flow_->end_supply();
+    flow_->end_supply();
     ports_.reset();
     return;
   }

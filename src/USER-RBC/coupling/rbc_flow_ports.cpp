@@ -286,9 +286,7 @@ double FlowPorts::pressure(const Port *port, const std::vector<double> &pressure
   return pressures[place(port)] / force->ftm2v + level;
 }
 
-std::size_t FlowPorts::bytes() const
+std::size_t FlowPorts::bytes(const Port *port) const
 {
-  std::size_t sum = 0;
-  for (const fluid::SmoothSource &source : sources_) sum += source.bytes();
-  return sum;
+  return sources_.empty() ? 0 : sources_[place(port)].bytes();
 }

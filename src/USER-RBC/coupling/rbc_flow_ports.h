@@ -70,7 +70,8 @@ class FlowPorts : protected Pointers {
   /// Of one of these pressures, with that of the port which takes the rest as it is given.
   double pressure(const Port *port, const std::vector<double> &pressures) const;
 
-  std::size_t bytes() const;
+  /// Memory for a port.
+  std::size_t bytes(const Port *port) const;
 
  private:
   std::vector<Port *> ports_;
