@@ -275,18 +275,6 @@ void NearTriangles::add_candidates(const double *x, int point)
   }
 }
 
-/* ----------------------------------------------------------------------
-   Points move by a flow, A X + c, and by what it leaves of their displacements. How far apart a
-   point and a place of a triangle were when held, if they are this far apart now and the flow left
-   this difference:
-     |x - y| = |(1 + A) (X - Y) + difference| >= (1 - |A|) |X - Y| - |difference|.
-------------------------------------------------------------------------- */
-
-double NearTriangles::held_distance(double distance, double difference) const
-{
-  return (distance + difference) / (1 - strain_);
-}
-
 double NearTriangles::largest_approach(const double *x)
 {
   fit_flow(x);

@@ -137,7 +137,16 @@ class NearTriangles {
   void hold_flow(const double *x);
   void fit_flow(const double *x);
   double approach_beyond(const double *x, const LinearFlow &flow);
-  double held_distance(double distance, double difference) const;
+
+  /// Points move by a flow, A X + c, and by what it leaves of their displacements. How far apart a
+  /// point and a place of a triangle were when held, if they are this far apart now and the flow
+  /// left this difference:
+  ///   |x - y| = |(1 + A) (X - Y) + difference| >= (1 - |A|) |X - Y| - |difference|.
+  double held_distance(double distance, double difference) const
+  {
+    return (distance + difference) / (1 - strain_);
+  }
+
   void sort_spheres(const double *x, const SpatialBins &bins);
   void find_surface_ranges(const SpatialBins &bins);
   void find_hits(const SpatialBins &bins, PlainVector point, Surface unseen, double far);
