@@ -39,11 +39,6 @@ constexpr double WIDE = 0.25;
 
 constexpr float UNKNOWN = -std::numeric_limits<float>::infinity();
 
-PlainVector at(const double *x, int n)
-{
-  return {x[3 * std::size_t(n)], x[3 * std::size_t(n) + 1], x[3 * std::size_t(n) + 2]};
-}
-
 /// A number by which positions are known again: other positions have another one, but for a chance
 /// of 1 in 2^64.
 std::uint64_t digest(const double *numbers, std::size_t count)

@@ -8,15 +8,6 @@
 
 namespace rbc {
 
-namespace {
-
-PlainVector at(const double *x, int n)
-{
-  return {x[3 * std::size_t(n)], x[3 * std::size_t(n) + 1], x[3 * std::size_t(n) + 2]};
-}
-
-}    // namespace
-
 void HeldBodies::hold(const double *x, const NumberLists &bodies)
 {
   bodies_ = &bodies;

@@ -13,11 +13,6 @@ namespace {
 constexpr double NEVER = std::numeric_limits<double>::max();
 constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
-PlainVector at(const double *x, int n)
-{
-  return {x[3 * std::size_t(n)], x[3 * std::size_t(n) + 1], x[3 * std::size_t(n) + 2]};
-}
-
 PlainVector first_place(const HeldBodies &held, int body)
 {
   return held.centre(body) + held.offset(held.bodies().begin[body]);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 
 namespace rbc {
 
@@ -23,6 +24,13 @@ inline PlainVector operator-(PlainVector a, PlainVector b)
 inline PlainVector operator*(double s, PlainVector a)
 {
   return {s * a.x, s * a.y, s * a.z};
+}
+
+/// Of point n in an array of three numbers for each point.
+inline PlainVector at(const double *x, int n)
+{
+  const double *const point = x + 3 * std::ptrdiff_t(n);
+  return {point[0], point[1], point[2]};
 }
 
 inline double dot(PlainVector a, PlainVector b)
