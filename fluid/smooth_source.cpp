@@ -80,6 +80,8 @@ SmoothSource::SmoothSource(const Grid &grid, const Decomposition &decomposition,
   });
   const std::vector<std::int64_t> all = gathered(mine, decomposition.comm);
   volume_ = cell_volume_ * static_cast<double>(all.size());
+  whole_grid_ = all.size() == grid.size();
+  if (whole_grid_) return;
   const std::vector<double> shape = torsion_function(grid, all);
   const auto place = [n = grid.cells](std::int64_t cell) {
     return Index3{int(cell % n[0]), int(cell / n[0] % n[1]), int(cell / n[0] / n[1])};

@@ -69,7 +69,7 @@ std::vector<double> torsion_function(const Grid &grid, const std::vector<std::in
   Vector solution(n, 0.0), residual(n, 1.0), direction = residual, response(n);
   double square = dot(residual, residual);
   const double enough = tolerance * tolerance * square;
-  while (square > enough) {
+  for (std::size_t iteration = 0; square > enough && iteration < 10 * n; ++iteration) {
     laplacian.apply(direction, response);
     const double step = square / dot(direction, response);
     for (std::size_t m = 0; m < n; ++m) solution[m] += step * direction[m];

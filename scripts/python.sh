@@ -3,6 +3,7 @@
 # is not there yet.
 #   usage: python.sh [script.py | -m module] [argument ...]
 . "$(dirname "$0")/common.sh"
+export USER_RBC_OWN_LAMMPS=1    # Debian's library loads no plugins
 . "$(dirname "$0")/lammps_version.sh" 4Feb2025
 
 [ -f "$BUILD/rbcplugin.so" ] && [ -d "$LAMMPS_HOME/source" ] ||

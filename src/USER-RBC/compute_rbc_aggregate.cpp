@@ -66,10 +66,7 @@ void ComputeRBCAggregate::init()
     error->all(FLERR, "Compute rbc/aggregate {} requires an orthogonal box", id);
   cells.find(groupbit);
   near.reset();
-  if (!sees_enough(find_cell_contact(force))) {
-    near.emplace(lmp, fmt::format("Compute rbc/aggregate {}", id));
-    near->init();
-  }
+  if (!find_seeing()) look_for_itself();
   found_step = -1;
 
   const int rows = rbc::AggregateSizes::class_count(cells.size());
@@ -142,23 +139,35 @@ void ComputeRBCAggregate::find_aggregates()
   sizes = rbc::AggregateSizes(sets);
 }
 
-bool ComputeRBCAggregate::sees_enough(const CellContact *contact) const
+/* ----------------------------------------------------------------------
+   a pair style that sees as far as `gap`, or null
+------------------------------------------------------------------------- */
+
+const CellContact *ComputeRBCAggregate::find_seeing() const
 {
-  return contact && contact->seen_gap() >= gap;
+  for (const CellContact *contact : find_cell_contacts(force))
+    if (contact->seen_gap() >= gap) return contact;
+  return nullptr;
+}
+
+void ComputeRBCAggregate::look_for_itself()
+{
+  near.emplace(lmp, fmt::format("Compute rbc/aggregate {}", id));
+  near->init();
 }
 
 /* ----------------------------------------------------------------------
-   as near as `gap` or nearer than that; those that a pair style has found, if there are any
+   All that are nearer than `gap`, and others. Within a run those that a pair style has found;
+   between runs atoms may have changed since then.
 ------------------------------------------------------------------------- */
 
 const std::vector<rbc::VertexContact> &ComputeRBCAggregate::contacts()
 {
-  const CellContact *const contact = find_cell_contact(force);
-  if (sees_enough(contact) && contact->sees_this_step()) return contact->near_contacts();
-  if (!near) {
-    near.emplace(lmp, fmt::format("Compute rbc/aggregate {}", id));
-    near->init();
+  if (update->whichflag != 0) {
+    const CellContact *const contact = find_seeing();
+    if (contact && contact->sees_this_step()) return contact->near_contacts();
   }
+  if (!near) look_for_itself();
   near->build(gap, 0, neighbor->skin);
   return near->contacts(gap);
 }

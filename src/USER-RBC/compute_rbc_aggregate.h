@@ -50,7 +50,8 @@ class ComputeRBCAggregate : public Compute {
   int nmax = 0;
 
   void find_aggregates();
-  bool sees_enough(const class CellContact *contact) const;
+  const class CellContact *find_seeing() const;
+  void look_for_itself();
   const std::vector<rbc::VertexContact> &contacts();
   std::vector<rbc::TouchedShare> touched_here();
   Surface surface_here() const;

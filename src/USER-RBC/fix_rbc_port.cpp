@@ -40,18 +40,26 @@ FixRBCPort::FixRBCPort(LAMMPS *lmp, int narg, char **arg) :
 
 FixRBCPort::~FixRBCPort()
 {
-  auto *const flow = dynamic_cast<FixRBCFluid *>(modify->get_fix_by_id(fluid));
-  if (flow) flow->driven_flow().drop_ports();
+  if (DrivenFlow *const flow = driven_flow()) flow->drop_ports();
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixRBCPort::init()
 {
-  fluid_fix = dynamic_cast<FixRBCFluid *>(modify->get_fix_by_id(fluid));
-  if (!fluid_fix)
+  if (!driven_flow())
     error->all(FLERR, "{}: there is no fix rbc/fluid with ID {}", opening.style, fluid);
   if (update->whichflag == 2) error->all(FLERR, "Fix rbc/port cannot be used with minimize");
+}
+
+/* ----------------------------------------------------------------------
+   null once its fix is deleted
+------------------------------------------------------------------------- */
+
+DrivenFlow *FixRBCPort::driven_flow() const
+{
+  auto *const flow = dynamic_cast<FixRBCFluid *>(modify->get_fix_by_id(fluid));
+  return flow ? &flow->driven_flow() : nullptr;
 }
 
 /* ----------------------------------------------------------------------
@@ -60,18 +68,18 @@ void FixRBCPort::init()
 
 double FixRBCPort::compute_vector(int n)
 {
-  if (!fluid_fix || !fluid_fix->driven_flow().ports()) return 0;
-  DrivenFlow &flow = fluid_fix->driven_flow();
-  if (n == 0) return flow.ports()->rate(&opening);
-  return n == 1 ? flow.port_pressure(&opening) : flow.port_volume(&opening);
+  DrivenFlow *const flow = driven_flow();
+  if (!flow || !flow->ports()) return 0;
+  if (n == 0) return flow->ports()->rate(&opening);
+  return n == 1 ? flow->port_pressure(&opening) : flow->port_volume(&opening);
 }
 
 /* ---------------------------------------------------------------------- */
 
 double FixRBCPort::memory_usage()
 {
-  if (!fluid_fix || !fluid_fix->driven_flow().ports()) return 0;
-  return static_cast<double>(fluid_fix->driven_flow().ports()->bytes(&opening));
+  const DrivenFlow *const flow = driven_flow();
+  return flow && flow->ports() ? static_cast<double>(flow->ports()->bytes(&opening)) : 0;
 }
 
 /* ----------------------------------------------------------------------
@@ -81,8 +89,8 @@ double FixRBCPort::memory_usage()
 void FixRBCPort::write_restart(FILE *fp)
 {
   std::vector<double> memory;
-  if (fluid_fix && fluid_fix->driven_flow().ports())
-    memory = fluid_fix->driven_flow().port_memory();
+  DrivenFlow *const flow = driven_flow();
+  if (flow && flow->ports()) memory = flow->port_memory();
   if (comm->me != 0) return;
   const double count = static_cast<double>(memory.size());
   const int size = static_cast<int>((1 + memory.size()) * sizeof(double));

@@ -34,7 +34,8 @@ class FixRBCPort : public Fix, public FluidClient {
  private:
   std::string fluid;
   Port opening;
-  class FixRBCFluid *fluid_fix = nullptr;
+
+  class DrivenFlow *driven_flow() const;
 };
 
 }    // namespace LAMMPS_NS

@@ -113,7 +113,7 @@ void PairRBCJKR::init_style()
   std::fill(type_pairs.begin(), type_pairs.end(), TypePair());
   init_boundaries();
   range = 0;
-  neighbor_calls = neighbor_step = -1;
+  neighbor_calls = neighbor_step = seen_step = -1;
 }
 
 /* ----------------------------------------------------------------------

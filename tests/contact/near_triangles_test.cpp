@@ -105,6 +105,43 @@ TEST_P(Finder, AgreesWithAllDistancesAndSolidAngles)
   }
 }
 
+TEST_P(Finder, KeepsItsListsInAFlow)
+{
+  // what a flow leaves is little: lists hold while it shears all by far more than they allow for
+  const Cells cells(GetParam());
+  NearTriangles finder;
+  finder.build(cells.size(), cells.surfaces.data(), cells.size(), cells.data(), cells.triangles,
+               range, slack, 10 * travel);
+  test::Random random(GetParam());
+  const Eigen::Matrix3d along = random.rotation() * Eigen::Vector3d(1, 0, 0) *
+                                (random.rotation() * Eigen::Vector3d(0, 1, 0)).transpose();
+  for (double strain : {0.05, 0.1, 0.2, 0.3}) {
+    Cells there = cells;
+    for (Vec3 &v : there.x) v += strain * along * v;
+    there.move(0.05 * slack, 7);
+    const double approach = finder.largest_approach(there.data());
+    EXPECT_GE(approach, strain * range) << "two places may come nearer by that";
+    if (strain < 0.15) {
+      EXPECT_LE(approach, 2 * strain * range + 0.4 * slack);
+      EXPECT_LE(approach, slack) << "not built anew";
+    }
+    std::map<std::pair<int, NearTriangles::Surface>, double> found;
+    for (const auto &contact : finder.contacts(there.data(), range))
+      found[{contact.point, there.surfaces[contact.corner[0]]}] = contact.gap;
+    for (int n = 0; n < there.size(); ++n)
+      for (NearTriangles::Surface surface = 7; surface < 11; ++surface) {
+        if (surface == there.surfaces[n]) continue;
+        const auto gap = there.gap(n, surface);
+        const auto contact = found.find({n, surface});
+        ASSERT_EQ(gap.has_value(), contact != found.end()) << n << " " << surface;
+        if (gap) {
+          EXPECT_NEAR(*gap, contact->second, 1e-12) << n << " " << surface;
+        }
+      }
+    finder.rebuild(cells.data());
+  }
+}
+
 TEST_P(Finder, RebuiltForOtherPositions)
 {
   Cells cells(GetParam());

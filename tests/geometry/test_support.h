@@ -309,7 +309,7 @@ class Table {
  public:
   explicit Table(const std::string &name)
   {
-    std::ifstream file(std::filesystem::path(__FILE__).parent_path().parent_path() / name);
+    std::ifstream file(std::filesystem::path(TEST_FOLDER) / name);
     std::string line;
     while (std::getline(file, line)) {
       if (line.empty() || line[0] == '#') continue;

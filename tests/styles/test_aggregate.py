@@ -156,6 +156,14 @@ class RandomSuspension(Case):
 class Moving(Case):
     def test_cells_that_fly_through_each_other(self):
         # and through the sides of the box, from rank to rank
+        self.fly()
+
+    def test_what_a_pair_style_has_found(self):
+        # the pair style sees further; the forces are far too weak to matter
+        self.fly(pair="pair_style rbc/jkr 0.6\npair_coeff 1 1 repulsive 1.0e-12 0.5",
+                 neighbor="neighbor 1.0 bin\ncomm_modify cutoff 6")
+
+    def fly(self, **changes):
         random = np.random.default_rng(2)
         cells = 12
         velocities = random.normal(size=(cells, 3))
@@ -167,7 +175,7 @@ class Moving(Case):
                     f"{GAP} area 0.01", cells=f"rbc/create rbc number {cells} seed 3 overlap 1.0 attempts 20000",
                     last=flight + "\nfix fly all nve\nneigh_modify delay 0 every 1 check yes", timestep="timestep 0.2",
                     box="region box block 0 20 0 18 0 16", run="run 60", every="thermo 10",
-                    dump=dump_line(10, columns="id mol xu yu zu c_agg")), ranks)
+                    dump=dump_line(10, columns="id mol xu yu zu c_agg"), **changes), ranks)
                 found = [self.assert_brute_force(result, GAP, (20, 18, 16), (1, 1, 1), cells * ["rbc_162"], 0.01, frame)
                          for frame in range(7)]
                 self.assertGreater(len({tuple(label) for label in found}), 3)

@@ -21,7 +21,7 @@ static constexpr double MARGIN = 0.6;
 
 // How far atoms move relative to each other in a step, at most, over what each may have moved since
 // the surfaces were built: by twice that in the step, in opposite directions, and sqrt(3) for how
-// CrossingFinder measures it. What it does not test is then reported as having moved too far.
+// CrossingFinder measures it, less the flow that moves all. What goes further is reported.
 
 static constexpr double FURTHEST = 7;
 
@@ -152,8 +152,14 @@ void CellCrossings::report(CollectiveStop &stop)
 
 void CellCrossings::report_found(CollectiveStop &stop)
 {
+  learn_triangles();    // forces may have found surfaces anew within the step
   const auto [known, crossed] = finder_.find(atom->x[0]);
-  if (!known) surfaces_.report_moved(stop);
+  if (!known && !surfaces_.report_moved(stop))
+    stop.report(fmt::format("{}: surfaces of cells moved too far past each other to be tested for "
+                            "crossing at step {}; raise the skin with the neighbor command, or "
+                            "lower the timestep",
+                            style_, update->ntimestep),
+                Flaw::unseen_motion);
   if (!crossed) return;
   const auto [first, second] = cells(*crossed);
   const std::string which =

@@ -253,10 +253,10 @@ const std::vector<NearSurfaces::Contact> &NearSurfaces::contacts(double range)
   return finder.contacts(atom->x[0], range);
 }
 
-void NearSurfaces::report_moved(CollectiveStop &to) const
+bool NearSurfaces::report_moved(CollectiveStop &to) const
 {
   const double moved = built.largest_displacement(atom->x[0]);
-  if (moved <= allowed) return;
+  if (moved <= allowed) return false;
   const int i = built.furthest_moved(atom->x[0]);
   const double *const x = atom->x[i];
   to.report(
@@ -267,6 +267,7 @@ void NearSurfaces::report_moved(CollectiveStop &to) const
                   style, moved, neighbor->lastcall, allowed, update->ntimestep, atom->molecule[i],
                   x[0], x[1], x[2]),
       Flaw::unseen_motion);
+  return true;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -61,10 +61,10 @@ class NearSurfaces : protected Pointers {
   /// Where each of them is among the fans of its cell.
   const std::vector<rbc::TriangleFans::Place> &places() const { return triangle_places; }
 
-  /// How far an atom may have moved since build(), and a report to `stop` if one has moved further.
-  /// Not collective.
+  /// How far an atom may have moved since build(), and a report to `stop` if one has moved further:
+  /// returns whether. Not collective.
   double allowed_displacement() const { return allowed; }
-  void report_moved(CollectiveStop &to) const;
+  bool report_moved(CollectiveStop &to) const;
 
   bool see_own_cells() const { return own_patch > 0; }
 

@@ -21,9 +21,9 @@ constexpr double TOUCHING = 1e-5;    // of the size of fans: distance of triangl
 
 constexpr double WIDER = 1.25;
 
-// After a build the reach is this much larger than what was needed between the two builds before, so
-// that one list holds until the next. At least this part of the margin, and that where nothing is
-// known.
+// After a build the reach is this much larger than what was needed between the two builds before,
+// so that one list holds until the next. At least this part of the margin, and that where nothing
+// is known.
 
 constexpr double LONGER = 1.3, LEAST = 0.1;
 
@@ -152,9 +152,11 @@ CrossingFinder::Outcome CrossingFinder::find(const double *x)
 {
   ++counts_.steps;
   end_ = digest(x, start_.size());
+  const double held = needed_;    // for what the list was good for so far
   if (!current_) list(start_.data(), foreseen_);
   find_needed_reach(x);
   if (needed_ >= reach_) {
+    since_build_ += held;
     list(start_.data(), std::min(WIDER * needed_, scene_.margin));
     find_needed_reach(x);
   }
@@ -262,7 +264,6 @@ std::vector<CrossingFinder::Pair> CrossingFinder::crossed(const double *x)
 void CrossingFinder::list(const double *x, double reach)
 {
   ++counts_.lists;
-  since_build_ += needed_;
   reach_ = reach;
   listed_.clear();
   near_.hold(x, reach_);

@@ -19,6 +19,10 @@ namespace rbc {
 /// more. Positions are three numbers for each point.
 class CrossingFinder {
  public:
+  CrossingFinder() = default;
+  CrossingFinder(const CrossingFinder &) = delete;    // parts of it point to each other
+  CrossingFinder &operator=(const CrossingFinder &) = delete;
+
   using Triangle = NearTriangles::Triangle;
   using Surface = NearTriangles::Surface;
 
@@ -51,9 +55,8 @@ class CrossingFinder {
   void start(const double *x);
 
   /// Two triangles that touched on the way to `x`, if there are any. `known` is false, and none are
-  /// given, where points move by more than Scene::furthest relative to their neighbors. That is the
-  /// diagonal of the box of all their relative displacements, up to sqrt(3) times the largest, as
-  /// NeighborMotion measures it.
+  /// given, where points move by more than Scene::furthest relative to their neighbors, as
+  /// NeighborMotion measures it: less the flow that moves all of them, by the diagonals of boxes.
   struct Outcome {
     bool known;
     std::optional<Pair> crossed;

@@ -189,7 +189,7 @@ class DrivenFlow : public StepPart, protected Pointers {
   std::array<double, 3> mean_inside();
   double inside_volume() { return inside_.volume(*flow_); }
 
-  /// Of a port of this flow: volume of its cells, and mean pressure less that in the last port.
+  /// Of a port of this flow: volume of its cells, and mean pressure, see FlowPorts::pressure().
   double port_volume(const Port *port) { return ports_->volume(port, *flow_, inside_); }
   double port_pressure(const Port *port);
 

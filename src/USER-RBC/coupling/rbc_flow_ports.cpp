@@ -23,9 +23,9 @@ static constexpr double SAME = 1.0e-9;
 
 static constexpr double SAME_PRESSURE = 1.0e-3;
 
-// In a port the flow along the wall grows, and that in the layer which the kernel blurs with it. What
-// the layer needs beyond the wall must be supplied there: otherwise it passes the wall. These spreads
-// leave 0.1 % of the flow in a tube 20 cells wide, 0.03 % in one of 40 (see examples/ports).
+// In a port the flow along the wall grows, and that in the layer which the kernel blurs with it.
+// What the layer needs beyond the wall must be supplied there: otherwise it passes the wall. These
+// spreads leave 0.1 % of the flow in a tube 20 cells wide, 0.03 % in one of 40 (examples/ports).
 
 static double spread_of(fluid::KernelKind kernel, fluid::MarkerKind kind)
 {
@@ -101,9 +101,21 @@ void FlowPorts::evaluate()
   modify->addstep_compute(update->ntimestep + 1);
 
   if (controls()) control();
+  check_determined();
   if (ports_[rest_]->given == Port::Given::rate) check_rates();
   end_[rest_] -= std::accumulate(end_.begin(), end_.end(), 0.0);
   now_ = end_;
+}
+
+void FlowPorts::check_determined() const
+{
+  for (std::size_t n = 0; n < ports_.size(); ++n)
+    if (!std::isfinite(end_[n]))
+      error->all(
+          FLERR,
+          "{}: no flow gives it its pressure at step {}; ports with pressures must be openings "
+          "of one vessel, each with a region of its own",
+          ports_[n]->style, update->ntimestep);
 }
 
 void FlowPorts::check_rates() const
@@ -157,6 +169,7 @@ void FlowPorts::supply(fluid::Flow &flow, const FlowInside &inside)
 void FlowPorts::find_sources(const fluid::Flow &flow, const FlowInside &inside)
 {
   const auto vessel = inside.enclosure();
+  std::vector<fluid::SmoothSource> sources;
   for (const Port *port : ports_) {
     const std::string use = "f" + port->style.substr(1);
     const RegionEnclosure opening(fixed_region(lmp, port->region, use), domain);
@@ -164,11 +177,15 @@ void FlowPorts::find_sources(const fluid::Flow &flow, const FlowInside &inside)
       const rbc::Vec3 centre{x[0], x[1], x[2]};
       return opening.contains(centre) && (!vessel || vessel->contains(centre));
     };
-    sources_.emplace_back(flow.grid(), flow.decomposition(), contains, spread_);
-    if (sources_.back().volume() == 0)
+    sources.emplace_back(flow.grid(), flow.decomposition(), contains, spread_);
+    if (sources.back().volume() == 0)
       error->all(FLERR, "Region {} for {} holds no centre of a cell of the fluid's grid{}",
                  port->region, use, vessel ? " inside the vessel" : "");
+    if (sources.back().is_whole_grid())
+      error->all(FLERR, "Region {} for {} holds all of the fluid: a port is a part of it",
+                 port->region, use);
   }
+  sources_ = std::move(sources);
 }
 
 /* ----------------------------------------------------------------------
@@ -237,6 +254,7 @@ std::vector<double> FlowPorts::control_state(const std::vector<double> &pressure
 void FlowPorts::restore_control()
 {
   const std::vector<double> state = std::exchange(ports_.front()->remembered, {});
+  for (Port *port : ports_) port->remembered.clear();    // the same, or of other ports
   const std::size_t count = controlled_.empty() ? 0 : controlled_.size() - 1;
   if (control_.inputs().size() != count) known_ = false;
   if (!controls() || state.size() < count) return;

@@ -95,6 +95,7 @@ class FlowPorts : protected Pointers {
 
   std::size_t place(const Port *port) const;
   void find_roles();
+  void check_determined() const;
   void check_rates() const;
   void control();
   std::vector<double> of_controlled(const std::vector<double> &values) const;

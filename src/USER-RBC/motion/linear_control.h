@@ -4,9 +4,9 @@
 
 namespace rbc {
 
-/// Keeps several quantities at wanted values by as many inputs, to which they respond linearly. What
-/// else they depend on, the disturbance, changes with time and is extrapolated: ResponseControl for
-/// more than one.
+/// Keeps several quantities at wanted values by as many inputs, to which they respond linearly.
+/// What else they depend on, the disturbance, changes with time and is extrapolated:
+/// ResponseControl for more than one.
 class LinearControl {
  public:
   using Numbers = std::vector<double>;

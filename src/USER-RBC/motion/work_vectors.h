@@ -8,8 +8,8 @@
 
 namespace rbc {
 
-/// Vectors of which each user makes what it needs, and which are of no use between its calls: shared
-/// by those of which one works at a time.
+/// Vectors of which each user makes what it needs, and which are of no use between its calls. They
+/// are shared by users that work one at a time.
 class WorkVectors {
  public:
   static constexpr int COUNT = 4;
