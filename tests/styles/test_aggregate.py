@@ -160,7 +160,7 @@ class Moving(Case):
 
     def test_what_a_pair_style_has_found(self):
         # the pair style sees further; the forces are far too weak to matter
-        self.fly(pair="pair_style rbc/jkr 0.6\npair_coeff 1 1 repulsive 1.0e-12 0.5",
+        self.fly(before="pair_style rbc/jkr 0.6\npair_coeff 1 1 repulsive 1.0e-12 0.5",
                  neighbor="neighbor 1.0 bin\ncomm_modify cutoff 6")
 
     def fly(self, **changes):
