@@ -30,8 +30,9 @@ SETTLED = 10                              # strain from which means are taken
 REACH = 0.6                               # gaps that count, um
 EVEN = 0.3                                # strain between points of a path that count
 VERTICES = 162                            # of a cell
-# of a step: error in um, strain and time in us at most, fluid cells crossed at most; bench/steps.sh
-STEPS = {"error": 2.0e-2, "step": 0.08, "longest": 8000, "courant": 2}
+# of a step: error in um, strain and time in us at most, fluid cells crossed at most
+# (bench/steps.sh); and steps between lines of the data files
+STEPS = {"error": 2.0e-2, "step": 0.08, "longest": 8000, "courant": 2, "every": 5}
 DIAMETER = 8.0                            # of the paper, um
 
 # what the paper says of its Figure 12: share of aggregates, from a size to below the next

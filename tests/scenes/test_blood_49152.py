@@ -54,12 +54,12 @@ class Small(unittest.TestCase):
     def test_blood_as_asked_for(self):
         blood = rows(self.folder / "blood.csv")["100"]
         self.assertEqual(blood["cells"], CELLS)
-        self.assertAlmostEqual(blood["strain"], 2, delta=0.3)    # lines of ten steps
+        self.assertAlmostEqual(blood["strain"], 2, delta=0.3)    # lines of five steps
         box = np.prod(blood_runs.box(self.run_folder))
         filled = CELLS * polyhedron("rbc_162")[1] / box
         self.assertAlmostEqual(blood["hematocrit"], filled, delta=1e-4 * filled)
         self.assertEqual(blood["lost"] + blood["cut"], 0)
-        self.assertLess(blood["volume"], 1e-4)
+        self.assertLess(blood["volume"], 5e-4)    # steps are as long as an error of 0.02 um allows
         self.assertGreater(blood["viscosity"], 1 + 2.5 * filled)
         self.assertLess(blood["viscosity"], 10)
         self.assertGreater(blood["least_gap"], 0.05)    # cells repel each other from 0.4 um on
@@ -91,7 +91,7 @@ class Small(unittest.TestCase):
         self.assertEqual(cells.data.shape[1:], (6, 19))
         np.testing.assert_array_equal(cells.column(1)[0], STUDY.sampled(CELLS))
         times, heights = STUDY.paths(self.run_folder)
-        self.assertAlmostEqual(times[-1] * 100, 2, delta=0.3)    # ten steps between two points
+        self.assertAlmostEqual(times[-1] * 100, 2, delta=0.3)    # five steps between two points
         self.assertTrue(((heights > 0) & (heights < 12)).all())
 
     def test_pictures_are_there_and_cut_outs_hold_whole_cells(self):
