@@ -25,6 +25,8 @@ export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1
 export OMPI_MCA_hwloc_base_binding_policy=none
 export PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_default_binding_policy=none
 export OMP_NUM_THREADS=1
+# MPI looks for graphics cards by way of X server :0 and ends with it; that may be one for pictures.
+export HWLOC_COMPONENTS=-gl
 
 # The Debian archive that apt of this machine takes its release from.
 debian_archive() {

@@ -26,7 +26,7 @@ ENVIRONMENT = {
     "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_mpi_yield_when_idle": "1",
     "OMPI_MCA_hwloc_base_binding_policy": "none", "OMP_NUM_THREADS": "1",
     "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
-    "PRTE_MCA_hwloc_default_binding_policy": "none"}
+    "PRTE_MCA_hwloc_default_binding_policy": "none", "HWLOC_COMPONENTS": "-gl"}
 
 # One red blood cell in shear between plates, in the order of the lines of an input script.
 SHEAR = {
