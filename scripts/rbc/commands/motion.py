@@ -1,27 +1,15 @@
-"""Tumbling and tank-treading of one cell from a dump of its vertices (`dump custom ... id xu yu
-zu`).
-
-In the plane of shear (x, z) the shape turns with the long axis of the vertices' second moments, the
-membrane with the rotation that best maps the vertices from one frame to the next. A tumbling cell
-turns as one: both rates agree. A tank-treading cell keeps its shape's angle while the membrane runs
-around it. Rates are given over the shear rate; a rigid sphere turns at -1/2.
-
-The rotation that maps best is not how often the membrane goes around: on an ellipse of axes a and b
-it is 2 a b / (a^2 + b^2) of that. The frequency that experiments count, the revolutions of the
-vertices around the centre, is given beside it.
-
-Means are over whole half turns of a shape that tumbles.
-
-%(prog)s vertices.dump --timestep DT --shear-rate G [-o motion.dat] [--from STRAIN]
-"""
+"""The command of rbc.membrane_motion."""
 from rbc import command_line
 import numpy as np
 
+from rbc import membrane_motion
 from rbc.membrane_motion import angles, mean_motion, read_dump
+
+USAGE = "%(prog)s vertices.dump --timestep DT --shear-rate G [-o motion.dat] [--from STRAIN]"
 
 
 def main(arguments=None):
-    parser = command_line.parser(__doc__)
+    parser = command_line.parser(f"{membrane_motion.__doc__}\n{USAGE}")
     parser.add_argument("dump")
     parser.add_argument("--timestep", type=float, required=True)
     parser.add_argument("--shear-rate", type=float, required=True,
