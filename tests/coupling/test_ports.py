@@ -276,6 +276,14 @@ ERRORS = {
                   ["Fix rbc/port in: its flow is not a number at step 0"]),
     "inertia": (dict(fluid=TUBE["fluid"] + " density 1 inertia unsteady", wall=""),
                 ["Fix rbc/port in needs fix rbc/fluid flow inertia none"]),
+    "all of the fluid": (dict(fluid=TUBE["fluid"].replace(" inside tube", ""), wall="",
+                              regions="region inlet block INF INF INF INF INF INF\n"
+                                      "region outlet block 30 40 0 20 0 20"),
+                         ["Region inlet for fix rbc/port in holds all of the fluid"]),
+    "pressures in one place": (dict(inlet=IN.replace("flow 1.0", "pressure 1"), outlet=OUT + " pressure 0",
+                                    regions="region inlet block 5 20 0 20 0 20\n"
+                                            "region outlet block 5 20 0 20 0 20", run="run 3"),
+                               ["no flow gives it its pressure", "openings of one vessel"]),
     "a mean velocity": (dict(fluid=TUBE["fluid"] + " mean x 1e-3"),
                         ["Fix rbc/port in cannot be used with fix rbc/fluid flow mean x"]),
 }
