@@ -6,7 +6,7 @@ namespace fluid {
 
 namespace {
 
-/// Weights of one marker in one direction, and their differences over the spacing: the weights with
+/// Weights of a marker in one direction, and their differences over the spacing: the weights with
 /// which what is spread onto centres (faces) changes across a face (centre).
 template <typename Kernel> struct DifferencedWeights {
   static constexpr int width = Kernel::width + 1;
@@ -16,23 +16,23 @@ template <typename Kernel> struct DifferencedWeights {
   Row face, centre_change;         ///< on faces
   Row centre, face_change;         ///< on centres
 
-  DifferencedWeights(double x, double origin, double inverse_spacing)
+  DifferencedWeights(const MarkerWeights<Kernel> &plain, int marker, double inverse_spacing)
   {
-    const Weights<Kernel> plain(x, origin, inverse_spacing);
-    first_face = plain.first_centre;
-    first_centre = plain.first_face - 1;
+    const auto of_face = [&](int n) { return plain.face.weight[n][marker]; };
+    const auto of_centre = [&](int n) { return plain.centre.weight[n][marker]; };
+    first_face = plain.centre.first[marker];
+    first_centre = plain.face.first[marker] - 1;
     face.setZero();
     centre.setZero();
     for (int n = 0; n < Kernel::width; ++n) {
-      face[n + plain.first_face - first_face] = plain.face[n];
-      centre[n + plain.first_centre - first_centre] = plain.centre[n];
+      face[n + plain.face.first[marker] - first_face] = of_face(n);
+      centre[n + plain.centre.first[marker] - first_centre] = of_centre(n);
     }
     for (int n = 0; n < width; ++n) {
       const bool starts = n > 0, ends = n == Kernel::width;
       centre_change[n] =
-          inverse_spacing * ((ends ? 0 : plain.centre[n]) - (starts ? plain.centre[n - 1] : 0));
-      face_change[n] =
-          inverse_spacing * ((ends ? 0 : plain.face[n]) - (starts ? plain.face[n - 1] : 0));
+          inverse_spacing * ((ends ? 0 : of_centre(n)) - (starts ? of_centre(n - 1) : 0));
+      face_change[n] = inverse_spacing * ((ends ? 0 : of_face(n)) - (starts ? of_face(n - 1) : 0));
     }
   }
 
@@ -50,10 +50,10 @@ template <typename Kernel> struct LayerStencil {
 
   std::array<Directions, 3> w;
 
-  LayerStencil(const double *x, const Grid &grid, const Real3 &inverse_spacing) :
-      w{{{x[0], grid.origin[0], inverse_spacing[0]},
-         {x[1], grid.origin[1], inverse_spacing[1]},
-         {x[2], grid.origin[2], inverse_spacing[2]}}}
+  LayerStencil(const WeightsOfAll<Kernel> &plain, int marker, const Grid &grid) :
+      w{Directions(plain[0], marker, 1 / grid.spacing[0]),
+        Directions(plain[1], marker, 1 / grid.spacing[1]),
+        Directions(plain[2], marker, 1 / grid.spacing[2])}
   {
   }
 
@@ -98,22 +98,28 @@ int spread_with(const Grid &grid, const MarkerSet &markers, const DoubleLayer &l
                 double viscosity, const VectorField &force, const ScalarField &source,
                 const Box &within)
 {
-  const Real3 inverse_spacing = inverse(grid.spacing);
   const double density = 1 / grid.cell_volume(), stress = viscosity * density;
   const auto fields = force.views();
-  for (int n = 0; n < markers.count; ++n) {
-    const std::ptrdiff_t i = 3 * std::ptrdiff_t(markers.index[n]);
-    if (!near(markers.position + i, grid, inverse_spacing)) return markers.index[n];
-    const LayerStencil<Kernel> stencil(markers.position + i, grid, inverse_spacing);
-    if (!stencil.inside(within)) return markers.index[n];
-    const double *const v = layer.velocity + i, *const s = layer.strength + i;
-    for (int c = 0; c < 3; ++c) {
-      const Real3 t{stress * (v[c] * s[0] + s[c] * v[0]), stress * (v[c] * s[1] + s[c] * v[1]),
-                    stress * (v[c] * s[2] + s[c] * v[2])};
-      stencil.add_divergence(c, t, fields[c]);
+  for (int begin = 0; begin < markers.count; begin += lanes) {
+    const MarkerPlaces block(markers, begin, grid);
+    if (const int far = block.first_far(); far < block.count) return markers.index[begin + far];
+    const auto weights = weights_of<Kernel>(block);
+    for (int n = 0; n < block.count; ++n) {
+      const int marker = markers.index[begin + n];
+      const LayerStencil<Kernel> stencil(weights, n, grid);
+      if (!stencil.inside(within)) return marker;
+      const double *const v = layer.velocity + 3 * std::ptrdiff_t(marker), *const s =
+                                                                               layer.strength +
+                                                                               3 * std::ptrdiff_t(
+                                                                                       marker);
+      for (int c = 0; c < 3; ++c) {
+        const Real3 t{stress * (v[c] * s[0] + s[c] * v[0]), stress * (v[c] * s[1] + s[c] * v[1]),
+                      stress * (v[c] * s[2] + s[c] * v[2])};
+        stencil.add_divergence(c, t, fields[c]);
+      }
+      const double flux = v[0] * s[0] + v[1] * s[1] + v[2] * s[2];
+      stencil.add(-density * flux, source[0]);
     }
-    const double flux = v[0] * s[0] + v[1] * s[1] + v[2] * s[2];
-    stencil.add(-density * flux, source[0]);
   }
   return -1;
 }

@@ -6,7 +6,8 @@ namespace fluid {
 
 // Regularised delta functions of one direction. `weights(s, w)` takes a position s in units of the
 // spacing, writes the weights of the `width` grid points first, first + 1, ... and returns `first`.
-// Weights are padded with zeros to four, so that a row of points is always one SIMD register.
+// Weights are padded with zeros to four, so that a row of points is always one SIMD register. They
+// are written `apart` numbers from each other, so that those of many markers are found at once.
 //
 // A surface of markers that does not slip at the markers is, for the flow beside it, one that does
 // not slip a part of the spacing further into the fluid. For a plane in a shear flow on one side of
@@ -23,14 +24,14 @@ struct Peskin4 {
   static constexpr double surface_offset = 0.3810;
   static constexpr double second_correction = 0.524, fourth_correction = 0.655;
 
-  static int weights(double s, double *w)
+  [[gnu::always_inline]] static int weights(double s, double *w, int apart = 1)
   {
     const double below = std::floor(s), r = s - below;
     const double root = std::sqrt(1 + 4 * r * (1 - r));
     w[0] = (3 - 2 * r - root) / 8;
-    w[1] = (3 - 2 * r + root) / 8;
-    w[2] = (1 + 2 * r + root) / 8;
-    w[3] = (1 + 2 * r - root) / 8;
+    w[apart] = (3 - 2 * r + root) / 8;
+    w[2 * apart] = (1 + 2 * r + root) / 8;
+    w[3 * apart] = (1 + 2 * r - root) / 8;
     return static_cast<int>(below) - 1;
   }
 };
@@ -41,14 +42,14 @@ struct Roma3 {
   static constexpr double surface_offset = 0.2662;
   static constexpr double second_correction = 0.30, fourth_correction = 0.2065;
 
-  static int weights(double s, double *w)
+  [[gnu::always_inline]] static int weights(double s, double *w, int apart = 1)
   {
     const double nearest = std::floor(s + 0.5), r = s - nearest;
     const double root = std::sqrt(1 - 3 * r * r);
-    w[0] = (2 - 3 * r - root) / 6;
-    w[1] = (1 + root) / 3;
-    w[2] = (2 + 3 * r - root) / 6;
-    w[3] = 0;
+    w[0] = (2 - 3 * r - root) * (1.0 / 6);
+    w[apart] = (1 + root) * (1.0 / 3);
+    w[2 * apart] = (2 + 3 * r - root) * (1.0 / 6);
+    w[3 * apart] = 0;
     return static_cast<int>(nearest) - 1;
   }
 };

@@ -9,56 +9,87 @@ namespace {
 using Row = Eigen::Array4d;
 using RowMap = Eigen::Map<Eigen::Array4d>;
 
-template <typename Kernel> struct Stencil {
-  std::array<Weights<Kernel>, 3> w;
+/// Grid points of a block of markers.
+template <typename Kernel> struct Stencils {
+  WeightsOfAll<Kernel> w;
 
-  Stencil(const double *x, const Grid &grid, const Real3 &inverse_spacing) :
-      w{{{x[0], grid.origin[0], inverse_spacing[0]},
-         {x[1], grid.origin[1], inverse_spacing[1]},
-         {x[2], grid.origin[2], inverse_spacing[2]}}}
+  /// Those of marker n, padded rows of four included.
+  bool inside(int n, const Box &box) const
   {
+    for (int d = 0; d < 3; ++d) {
+      const int width = d == 0 ? 4 : Kernel::width;
+      const int face = w[d].face.first[n], centre = w[d].centre.first[n];
+      if (std::min(face, centre) < box.lo[d] || std::max(face, centre) + width > box.hi[d])
+        return false;
+    }
+    return true;
   }
 
-  bool inside(const Box &box) const
+  /// In direction d, of a vector's component c.
+  const typename MarkerWeights<Kernel>::Points &points(int d, int c) const
   {
-    return w[0].inside(box.lo[0], box.hi[0], true) && w[1].inside(box.lo[1], box.hi[1], false) &&
-           w[2].inside(box.lo[2], box.hi[2], false);
+    return c == d ? w[d].face : w[d].centre;
   }
 
-  /// Visits the rows of grid points of component c: visit(pointer to the row, weight of the row).
-  template <typename Visit> void for_each_row(int c, const View<double> &field, Visit visit) const
+  /// The first of marker n's points of component c.
+  double *corner(int n, int c, const View<double> &field) const
   {
-    const Row &wy = c == 1 ? w[1].face : w[1].centre, &wz = c == 2 ? w[2].face : w[2].centre;
-    const int i = c == 0 ? w[0].first_face : w[0].first_centre;
-    const int j = c == 1 ? w[1].first_face : w[1].first_centre;
-    const int k = c == 2 ? w[2].first_face : w[2].first_centre;
-    const std::ptrdiff_t row = field.box.extent(0), plane = row * field.box.extent(1);
-    double *corner = &field(i, j, k);
-    for (int n = 0; n < Kernel::width; ++n)
-      for (int m = 0; m < Kernel::width; ++m) visit(corner + n * plane + m * row, wz[n] * wy[m]);
+    return &field(points(0, c).first[n], points(1, c).first[n], points(2, c).first[n]);
   }
 
-  const Row &row_weights(int c) const { return c == 0 ? w[0].face : w[0].centre; }
+  /// Adds `row`, times the weights along y and z.
+  void add(int n, int c, const Row &row, const View<double> &field) const
+  {
+    const auto &y = points(1, c), &z = points(2, c);
+    const std::ptrdiff_t line = field.box.extent(0), plane = line * field.box.extent(1);
+    double *const first = corner(n, c, field);
+    for (int k = 0; k < Kernel::width; ++k) {
+      const Row here = z.weight[k][n] * row;
+      for (int j = 0; j < Kernel::width; ++j)
+        RowMap(first + k * plane + j * line) += y.weight[j][n] * here;
+    }
+  }
+
+  /// Sum of the rows, times the weights along y and z.
+  Row sum(int n, int c, const View<double> &field) const
+  {
+    const auto &y = points(1, c), &z = points(2, c);
+    const std::ptrdiff_t line = field.box.extent(0), plane = line * field.box.extent(1);
+    const double *const first = corner(n, c, field);
+    Row sum = Row::Zero();
+    for (int k = 0; k < Kernel::width; ++k) {
+      Row here = Row::Zero();
+      for (int j = 0; j < Kernel::width; ++j)
+        here += y.weight[j][n] * Eigen::Map<const Row>(first + k * plane + j * line);
+      sum += z.weight[k][n] * here;
+    }
+    return sum;
+  }
+
+  Row row_weights(int n, int c) const
+  {
+    const auto &along = points(0, c);
+    return {along.weight[0][n], along.weight[1][n], along.weight[2][n], along.weight[3][n]};
+  }
 };
 
 template <typename Kernel>
 int spread_with(const Grid &grid, const MarkerSet &markers, const double *applied, double factor,
                 const VectorField &force, const Box &within)
 {
-  const Real3 inverse_spacing = inverse(grid.spacing);
   const double density = factor / grid.cell_volume();
   const auto fields = force.views();
-  for (int n = 0; n < markers.count; ++n) {
-    const std::ptrdiff_t i = 3 * std::ptrdiff_t(markers.index[n]);
-    if (!near(markers.position + i, grid, inverse_spacing)) return markers.index[n];
-    const Stencil<Kernel> stencil(markers.position + i, grid, inverse_spacing);
-    if (!stencil.inside(within)) return markers.index[n];
-    for (int c = 0; c < 3; ++c) {
-      const Row row = stencil.row_weights(c) * (density * applied[i + c]);
-      stencil.for_each_row(c, fields[c], [&](double *points, double weight) {
-        RowMap map(points);
-        map += weight * row;
-      });
+  for (int begin = 0; begin < markers.count; begin += lanes) {
+    const MarkerPlaces block(markers, begin, grid);
+    if (const int far = block.first_far(); far < block.count) return markers.index[begin + far];
+    const Stencils<Kernel> stencils{weights_of<Kernel>(block)};
+    for (int n = 0; n < block.count; ++n) {
+      const int marker = markers.index[begin + n];
+      if (!stencils.inside(n, within)) return marker;
+      for (int c = 0; c < 3; ++c) {
+        const double here = density * applied[3 * std::ptrdiff_t(marker) + c];
+        stencils.add(n, c, here * stencils.row_weights(n, c), fields[c]);
+      }
     }
   }
   return -1;
@@ -68,18 +99,14 @@ template <typename Kernel>
 void interpolate_with(const Grid &grid, const MarkerSet &markers, const VectorField &velocity,
                       double *interpolated)
 {
-  const Real3 inverse_spacing = inverse(grid.spacing);
   const auto fields = velocity.views();
-  for (int n = 0; n < markers.count; ++n) {
-    const std::ptrdiff_t i = 3 * std::ptrdiff_t(markers.index[n]);
-    const Stencil<Kernel> stencil(markers.position + i, grid, inverse_spacing);
-    for (int c = 0; c < 3; ++c) {
-      Row sum = Row::Zero();
-      stencil.for_each_row(c, fields[c], [&](const double *points, double weight) {
-        sum += weight * Eigen::Map<const Eigen::Array4d>(points);
-      });
-      interpolated[i + c] = (sum * stencil.row_weights(c)).sum();
-    }
+  for (int begin = 0; begin < markers.count; begin += lanes) {
+    const MarkerPlaces block(markers, begin, grid);
+    const Stencils<Kernel> stencils{weights_of<Kernel>(block)};
+    for (int n = 0; n < block.count; ++n)
+      for (int c = 0; c < 3; ++c)
+        interpolated[3 * std::ptrdiff_t(markers.index[begin + n]) + c] =
+            (stencils.sum(n, c, fields[c]) * stencils.row_weights(n, c)).sum();
   }
 }
 

@@ -224,6 +224,7 @@ void FixRBCMembrane::init()
   cells.start_run();
   check_apart();
   ask_for_ghosts();
+  keep_cells_together();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -254,6 +255,17 @@ void FixRBCMembrane::ask_for_ghosts()
     reach = std::max(reach, membranes->ghost_reach());
   if (force->pair) reach = std::max(reach, force->pair->cutforce);
   ghosts.ask_for(reach + neighbor->skin);
+}
+
+/* ----------------------------------------------------------------------
+   LAMMPS sorts atoms by bins. In bins as large as a cell most of its vertices stay neighbors in
+   memory, and cells that are near each other come one after the other.
+------------------------------------------------------------------------- */
+
+void FixRBCMembrane::keep_cells_together()
+{
+  if (atom->sortfreq > 0 && atom->userbinsize == 0)
+    atom->userbinsize = std::sqrt(cells.shape().area / MathConst::MY_PI);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -50,6 +50,7 @@ class FixRBCMembrane : public Fix, public MembraneOwner {
   rbc::SurfaceViscosity read_viscosity(Arguments &);
   void check_apart() const;
   void ask_for_ghosts();
+  void keep_cells_together();
   const rbc::MembraneEnergy &total_energy();
 };
 

@@ -18,9 +18,9 @@ namespace {
 
 constexpr int FITTED = 8;
 
-// others are looked at when there are so many, in whole groups
+// groups whose nearest triangles are found together
 
-constexpr std::size_t OTHERS = 1024;
+constexpr std::size_t NEAR = 128;
 
 // loops run on into what is no sphere any more, so that they have no rest that is not vectorised
 
@@ -71,7 +71,7 @@ void NearTriangles::build(int points, const Surface *surfaces, int corners, cons
       for (int v : triangles[t].corner) put(v, static_cast<int>(t));
   });
   corners_ = corners;
-  others_.reserve(2 * OTHERS);
+  near_groups_.reserve(NEAR);
   rebuild(x);
 }
 
@@ -306,19 +306,29 @@ void NearTriangles::fit_flow(const double *x)
 }
 
 /* ----------------------------------------------------------------------
-   Finds the nearest triangle of each group in reach. No triangle can be nearer than it was less
+   Takes groups from the given one on that may be in range, as many as stay in the processor's cache
+   until their contacts are found. Returns the first group that was not looked at.
+------------------------------------------------------------------------- */
+
+std::size_t NearTriangles::find_near_groups(std::size_t g, double range)
+{
+  near_groups_.clear();
+  for (; g < groups_.size() && near_groups_.size() < NEAR; ++g) {
+    const Group &group = groups_[g];
+    if (candidates_[group.begin].distance <= held_distance(range, motion_.around(group.point)))
+      near_groups_.push_back(static_cast<int>(g));
+  }
+  return g;
+}
+
+/* ----------------------------------------------------------------------
+   Finds the nearest triangle of each near group. No triangle can be nearer than it was less
    what it and the point came nearer to each other. The one that was nearest last time comes first,
    so that few of the others need a look.
 ------------------------------------------------------------------------- */
 
 void NearTriangles::find_nearest(const double *x, double range)
 {
-  near_groups_.clear();
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const Group &group = groups_[g];
-    if (candidates_[group.begin].distance <= held_distance(range, motion_.around(group.point)))
-      near_groups_.push_back(static_cast<int>(g));
-  }
   visit_distances(
       x, static_cast<int>(near_groups_.size()),
       [&](int n) {
@@ -334,7 +344,6 @@ void NearTriangles::find_nearest(const double *x, double range)
     const double far = held_distance(nearer, motion_.around(group.point));
     for (int n = group.begin; n < group.end && !(candidates_[n].distance > far); ++n)
       if (n != group.nearest) others_.push_back({g, n});
-    if (others_.size() >= OTHERS) look_at_others(x);
   }
   look_at_others(x);
 }
@@ -353,7 +362,6 @@ void NearTriangles::look_at_others(const double *x)
         groups_[g].distance2 = distance2;
         groups_[g].nearest = candidate;
       });
-  others_.clear();
 }
 
 const int *NearTriangles::corners(int candidate) const
@@ -364,10 +372,13 @@ const int *NearTriangles::corners(int candidate) const
 const std::vector<VertexContact> &NearTriangles::contacts(const double *x, double range)
 {
   if (largest_approach(x) > slack_) rebuild(x);
-  find_nearest(x, range);
   contacts_.clear();
-  for (int g : near_groups_)
-    if (groups_[g].distance2 < square(range)) add_contact(x, groups_[g]);
+  for (std::size_t begin = 0; begin < groups_.size();) {
+    begin = find_near_groups(begin, range);
+    find_nearest(x, range);
+    for (int g : near_groups_)
+      if (groups_[g].distance2 < square(range)) add_contact(x, groups_[g]);
+  }
   return contacts_;
 }
 

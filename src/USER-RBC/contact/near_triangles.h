@@ -128,8 +128,8 @@ class NearTriangles {
   std::vector<Found> found_;
   std::vector<Group> groups_;
   std::vector<Candidate> candidates_;
-  std::vector<int> near_groups_;               // that may be in range
-  std::vector<std::pair<int, int>> others_;    // some groups and candidates that may be nearer
+  std::vector<int> near_groups_;               // some that may be in range
+  std::vector<std::pair<int, int>> others_;    // of these, and candidates that may be nearer
   std::vector<VertexContact> contacts_;
 
   static Sphere sphere_around(const double *x, const Triangle &triangle);
@@ -155,6 +155,7 @@ class NearTriangles {
   void visit_distances(const double *x, int count, const Pair &pair, const Take &take) const;
   void add_candidates(const double *x, int point);
   const int *corners(int candidate) const;
+  std::size_t find_near_groups(std::size_t g, double range);
   void find_nearest(const double *x, double range);
   void look_at_others(const double *x);
   void add_contact(const double *x, const Group &group);
