@@ -71,7 +71,7 @@ void NearTriangles::build(int points, const Surface *surfaces, int corners, cons
       for (int v : triangles[t].corner) put(v, static_cast<int>(t));
   });
   corners_ = corners;
-  near_groups_.reserve(NEAR);
+  near_.reserve(NEAR);
   rebuild(x);
 }
 
@@ -258,7 +258,7 @@ void NearTriangles::add_candidates(const double *x, int point)
   for (std::size_t n = 0; n < found_.size(); ++n) {
     const int place = static_cast<int>(candidates_.size());
     if (n == 0 || found_[n].surface != found_[n - 1].surface)
-      push_back_tightly(groups_, Group{point, place, 0, place, 0});
+      push_back_tightly(groups_, Group{point, place, 0, place, Side::unknown});
     groups_.back().end = place + 1;
     push_back_tightly(candidates_, Candidate{rounded_down(found_[n].distance), found_[n].triangle});
   }
@@ -312,11 +312,11 @@ void NearTriangles::fit_flow(const double *x)
 
 std::size_t NearTriangles::find_near_groups(std::size_t g, double range)
 {
-  near_groups_.clear();
-  for (; g < groups_.size() && near_groups_.size() < NEAR; ++g) {
+  near_.clear();
+  for (; g < groups_.size() && near_.size() < NEAR; ++g) {
     const Group &group = groups_[g];
     if (candidates_[group.begin].distance <= held_distance(range, motion_.around(group.point)))
-      near_groups_.push_back(static_cast<int>(g));
+      near_.push_back({static_cast<int>(g), 0});
   }
   return g;
 }
@@ -330,37 +330,32 @@ std::size_t NearTriangles::find_near_groups(std::size_t g, double range)
 void NearTriangles::find_nearest(const double *x, double range)
 {
   visit_distances(
-      x, static_cast<int>(near_groups_.size()),
+      x, static_cast<int>(near_.size()),
       [&](int n) {
-        const Group &group = groups_[near_groups_[n]];
+        const Group &group = groups_[near_[n].group];
         return std::pair(group.point, corners(group.nearest));
       },
-      [&](int n, double distance2) { groups_[near_groups_[n]].distance2 = distance2; });
+      [&](int n, double distance2) { near_[n].distance2 = distance2; });
 
   others_.clear();
-  for (int g : near_groups_) {
-    const Group &group = groups_[g];
-    const double nearer = std::min(range, std::sqrt(group.distance2));
+  for (std::size_t g = 0; g < near_.size(); ++g) {
+    const Group &group = groups_[near_[g].group];
+    const double nearer = std::min(range, std::sqrt(near_[g].distance2));
     const double far = held_distance(nearer, motion_.around(group.point));
     for (int n = group.begin; n < group.end && !(candidates_[n].distance > far); ++n)
-      if (n != group.nearest) others_.push_back({g, n});
+      if (n != group.nearest) others_.push_back({static_cast<int>(g), n});
   }
-  look_at_others(x);
-}
-
-void NearTriangles::look_at_others(const double *x)
-{
   visit_distances(
       x, static_cast<int>(others_.size()),
       [&](int n) {
         const auto &[g, candidate] = others_[n];
-        return std::pair(groups_[g].point, corners(candidate));
+        return std::pair(groups_[near_[g].group].point, corners(candidate));
       },
       [&](int n, double distance2) {
         const auto &[g, candidate] = others_[n];
-        if (distance2 >= groups_[g].distance2) return;
-        groups_[g].distance2 = distance2;
-        groups_[g].nearest = candidate;
+        if (distance2 >= near_[g].distance2) return;
+        near_[g].distance2 = distance2;
+        groups_[near_[g].group].nearest = candidate;
       });
 }
 
@@ -376,8 +371,8 @@ const std::vector<VertexContact> &NearTriangles::contacts(const double *x, doubl
   for (std::size_t begin = 0; begin < groups_.size();) {
     begin = find_near_groups(begin, range);
     find_nearest(x, range);
-    for (int g : near_groups_)
-      if (groups_[g].distance2 < square(range)) add_contact(x, groups_[g]);
+    for (const auto &[group, distance2] : near_)
+      if (distance2 < square(range)) add_contact(x, groups_[group]);
   }
   return contacts_;
 }
@@ -392,7 +387,7 @@ std::size_t NearTriangles::bytes() const
              sizeof(SurfaceRange) +
          surfaces_.capacity() * sizeof(Surface) + motion_.bytes() +
          spheres_.triangle.capacity() * (4 * sizeof(float) + sizeof(Surface) + sizeof(int)) +
-         groups_.capacity() * sizeof(Group) + near_groups_.capacity() * sizeof(int) +
+         groups_.capacity() * sizeof(Group) + near_.capacity() * sizeof(Near) +
          others_.capacity() * sizeof(others_[0]) + candidates_.capacity() * sizeof(Candidate) +
          contacts_.capacity() * sizeof(VertexContact);
 }

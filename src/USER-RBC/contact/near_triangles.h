@@ -70,11 +70,18 @@ class NearTriangles {
   std::size_t bytes() const;
 
  private:
+  enum class Side : std::int32_t { unknown, outside, inside };
+
   /// Triangles of one surface near one point.
   struct Group {
     int point, begin, end;
-    int nearest;         ///< when last looked for
-    double distance2;    ///< of that
+    int nearest;    ///< when last looked for
+    Side side;      ///< of the surface on which the point was when built
+  };
+  /// A group that may be in range, and the square of the distance of its nearest triangle.
+  struct Near {
+    int group;
+    double distance2;
   };
   /// A triangle and its distance when built, or a little less. Kept small: there are many.
   struct Candidate {
@@ -128,7 +135,7 @@ class NearTriangles {
   std::vector<Found> found_;
   std::vector<Group> groups_;
   std::vector<Candidate> candidates_;
-  std::vector<int> near_groups_;               // some that may be in range
+  std::vector<Near> near_;                     // some of the groups
   std::vector<std::pair<int, int>> others_;    // of these, and candidates that may be nearer
   std::vector<VertexContact> contacts_;
 
@@ -157,8 +164,8 @@ class NearTriangles {
   const int *corners(int candidate) const;
   std::size_t find_near_groups(std::size_t g, double range);
   void find_nearest(const double *x, double range);
-  void look_at_others(const double *x);
-  void add_contact(const double *x, const Group &group);
+  void add_contact(const double *x, Group &group);
+  bool has_kept_side(const Group &group) const;
   template <typename Function>
   void visit_around(const double *x, const std::array<int, 3> &corner,
                     const TriangleFeature &feature, const Function &f) const;

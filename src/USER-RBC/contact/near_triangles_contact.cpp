@@ -14,7 +14,17 @@ constexpr double TOUCHING = 1e-10;
 
 }    // namespace
 
-void NearTriangles::add_contact(const double *x, const Group &group)
+/* ----------------------------------------------------------------------
+   On the straight way from where all were when built to where they are now the point has not met
+   the surface, so that it winds around the point as it did.
+------------------------------------------------------------------------- */
+
+bool NearTriangles::has_kept_side(const Group &group) const
+{
+  return candidates_[group.begin].distance > held_distance(0, motion_.around(group.point));
+}
+
+void NearTriangles::add_contact(const double *x, Group &group)
 {
   const PlainVector p = at(x, group.point);
   const std::array<int, 3> &corner = (*triangles_)[candidates_[group.nearest].triangle].corner;
@@ -22,7 +32,11 @@ void NearTriangles::add_contact(const double *x, const Group &group)
   const auto weight = closest_point_weights(p, a, b, c);
   const PlainVector apart = p - weighted_point(weight, a, b, c), face = cross(b - a, c - a);
   const double distance = norm(apart);
-  const bool inside = is_inside(x, corner, weight, face, apart);
+  const bool side_is_kept = has_kept_side(group);
+  const bool inside = side_is_kept && group.side != Side::unknown
+                          ? group.side == Side::inside
+                          : is_inside(x, corner, weight, face, apart);
+  if (side_is_kept) group.side = inside ? Side::inside : Side::outside;
   const auto direction = [&] {
     if (distance > TOUCHING * norm(b - a)) return (inside ? -1 / distance : 1 / distance) * apart;
     const PlainVector out = outward(x, corner, weight, face);
