@@ -26,11 +26,6 @@ constexpr std::size_t NEAR = 128;
 
 constexpr int LANES = 16;
 
-int whole_lanes(int count)
-{
-  return (count + LANES - 1) / LANES * LANES;
-}
-
 double square(double s)
 {
   return s * s;
@@ -86,14 +81,16 @@ void NearTriangles::rebuild(const double *x)
   find_surface_ranges(bins);
 
   groups_.clear();
-  candidates_.clear();
+  candidates_.distance.clear();
+  candidates_.triangle.clear();
   for (int n = 0; n < static_cast<int>(surfaces_.size()); ++n) {
     if (surfaces_[n] == NO_SURFACE) continue;
     const PlainVector point = at(x, n);
     const Surface unseen = sees_own_ ? NO_SURFACE : surfaces_[n];
     if (around_bin_[bins.of(point)].none_but(unseen)) continue;
     find_hits(bins, point, unseen, far);
-    add_candidates(x, n);
+    find_candidates(x, n);
+    add_groups(n);
   }
 }
 
@@ -174,38 +171,35 @@ bool NearTriangles::any_seen(int first_bin, int last_bin, Surface unseen) const
 void NearTriangles::find_hits(const SpatialBins &bins, PlainVector p, Surface unseen, double far)
 {
   hit_count_ = 0;
+  const int i0 = bins.along(0, p.x - far), i1 = bins.along(0, p.x + far);
   const int j0 = bins.along(1, p.y - far), j1 = bins.along(1, p.y + far);
   const int k0 = bins.along(2, p.z - far), k1 = bins.along(2, p.z + far);
-  constexpr int most = 64;
-  static_assert(most % LANES == 0);
-  std::int32_t hit[most];    // as wide as all others in the loop
   const PlainVector from = p - spheres_.origin;
   const auto px = static_cast<float>(from.x), py = static_cast<float>(from.y),
              pz = static_cast<float>(from.z), reach = static_cast<float>(reach_);
   for (int k = k0; k <= k1; ++k)
     for (int j = j0; j <= j1; ++j) {
-      const double left =
-          square(far) - square(bins.distance(1, j, p.y)) - square(bins.distance(2, k, p.z));
-      if (left < 0) continue;
-      const double along = std::sqrt(left);
-      const int first_bin = bins.index(bins.along(0, p.x - along), j, k);
-      const int last_bin = bins.index(bins.along(0, p.x + along), j, k);
+      if (square(bins.distance(1, j, p.y)) + square(bins.distance(2, k, p.z)) > square(far))
+        continue;
+      const int first_bin = bins.index(i0, j, k), last_bin = bins.index(i1, j, k);
       if (!any_seen(first_bin, last_bin, unseen)) continue;
-      const int begin = bin_begin_[first_bin], end = bin_begin_[last_bin + 1];
-      for (int first = begin; first < end; first += most) {
-        const int count = std::min(most, end - first);
+      const int end = bin_begin_[last_bin + 1];
+      for (int first = bin_begin_[first_bin]; first < end; first += LANES) {
         const float *const x = &spheres_.x[first], *const y = &spheres_.y[first],
                            *const z = &spheres_.z[first], *const radius = &spheres_.radius[first];
         const Surface *const surface = &spheres_.surface[first];
-        for_each(whole_lanes(count), [&](int n) {
+        std::uint32_t hits = 0;
+#pragma omp simd reduction(| : hits)
+        for (int n = 0; n < LANES; ++n) {
           const float dx = x[n] - px, dy = y[n] - py, dz = z[n] - pz, far_off = reach + radius[n];
-          hit[n] = (dx * dx + dy * dy + dz * dz <= far_off * far_off) & (surface[n] != unseen);
-        });
-        if (hits_.size() < std::size_t(hit_count_ + most)) hits_.resize(2 * (hit_count_ + most));
-        for (int n = 0; n < count; ++n) {    // without branches: hits come at random
-          hits_[hit_count_] = spheres_.triangle[first + n];
-          hit_count_ += hit[n];
+          const bool hit =
+              (dx * dx + dy * dy + dz * dz <= far_off * far_off) & (surface[n] != unseen);
+          hits |= std::uint32_t(hit) << n;
         }
+        if (end - first < LANES) hits &= (1u << (end - first)) - 1;
+        if (hits_.size() < std::size_t(hit_count_ + LANES)) hits_.resize(2 * (hit_count_ + LANES));
+        for (; hits; hits &= hits - 1)
+          hits_[hit_count_++] = spheres_.triangle[first + __builtin_ctz(hits)];
       }
     }
 }
@@ -240,7 +234,7 @@ void NearTriangles::visit_distances(const double *x, int count, const Pair &pair
   }
 }
 
-void NearTriangles::add_candidates(const double *x, int point)
+void NearTriangles::find_candidates(const double *x, int point)
 {
   found_.clear();
   visit_distances(
@@ -250,18 +244,33 @@ void NearTriangles::add_candidates(const double *x, int point)
         const Surface surface = (*triangles_)[t].surface;
         if (!(distance2 <= square(reach_))) return;
         if (surface == surfaces_[point] && !sees_own_(point, t)) return;
-        found_.push_back({surface, std::sqrt(distance2), t});
+        found_.push_back({surface, rounded_down(std::sqrt(distance2)), t});
       });
-  std::sort(found_.begin(), found_.end(), [](const Found &a, const Found &b) {
-    return a.surface != b.surface ? a.surface < b.surface : a.distance < b.distance;
-  });
-  for (std::size_t n = 0; n < found_.size(); ++n) {
-    const int place = static_cast<int>(candidates_.size());
-    if (n == 0 || found_[n].surface != found_[n - 1].surface)
-      push_back_tightly(groups_, Group{point, place, 0, place, Side::unknown});
-    groups_.back().end = place + 1;
-    push_back_tightly(candidates_, Candidate{rounded_down(found_[n].distance), found_[n].triangle});
+}
+
+void NearTriangles::add_groups(int point)
+{
+  for (auto begin = found_.begin(), end = begin; begin != found_.end(); begin = end) {
+    const Surface surface = begin->surface;
+    end = std::partition(begin, found_.end(),
+                         [&](const Found &found) { return found.surface == surface; });
+    Group group{point, candidates_.count(), begin->distance, candidates_.count(), Side::unknown};
+    for (auto found = begin; found != end; ++found) {
+      if (found->distance < group.distance) {
+        group.distance = found->distance;
+        group.nearest = candidates_.count();
+      }
+      push_back_tightly(candidates_.distance, found->distance);
+      push_back_tightly(candidates_.triangle, found->triangle);
+    }
+    push_back_tightly(groups_, group);
   }
+}
+
+int NearTriangles::end_of(int group) const
+{
+  const std::size_t next = std::size_t(group) + 1;
+  return next < groups_.size() ? groups_[next].begin : candidates_.count();
 }
 
 double NearTriangles::largest_approach(const double *x)
@@ -315,7 +324,7 @@ std::size_t NearTriangles::find_near_groups(std::size_t g, double range)
   near_.clear();
   for (; g < groups_.size() && near_.size() < NEAR; ++g) {
     const Group &group = groups_[g];
-    if (candidates_[group.begin].distance <= held_distance(range, motion_.around(group.point)))
+    if (group.distance <= held_distance(range, motion_.around(group.point)))
       near_.push_back({static_cast<int>(g), 0});
   }
   return g;
@@ -337,16 +346,21 @@ void NearTriangles::find_nearest(const double *x, double range)
       },
       [&](int n, double distance2) { near_[n].distance2 = distance2; });
 
-  others_.clear();
+  int count = 0;
   for (std::size_t g = 0; g < near_.size(); ++g) {
     const Group &group = groups_[near_[g].group];
     const double nearer = std::min(range, std::sqrt(near_[g].distance2));
     const double far = held_distance(nearer, motion_.around(group.point));
-    for (int n = group.begin; n < group.end && !(candidates_[n].distance > far); ++n)
-      if (n != group.nearest) others_.push_back({static_cast<int>(g), n});
+    const int end = end_of(near_[g].group);
+    if (others_.size() < std::size_t(count + end - group.begin))
+      others_.resize(2 * others_.size() + end - group.begin);
+    for (int n = group.begin; n < end; ++n) {    // without branches: distances come in any order
+      others_[count] = {static_cast<int>(g), n};
+      count += (candidates_.distance[n] <= far) & (n != group.nearest);
+    }
   }
   visit_distances(
-      x, static_cast<int>(others_.size()),
+      x, count,
       [&](int n) {
         const auto &[g, candidate] = others_[n];
         return std::pair(groups_[near_[g].group].point, corners(candidate));
@@ -361,7 +375,7 @@ void NearTriangles::find_nearest(const double *x, double range)
 
 const int *NearTriangles::corners(int candidate) const
 {
-  return (*triangles_)[candidates_[candidate].triangle].corner.data();
+  return (*triangles_)[candidates_.triangle[candidate]].corner.data();
 }
 
 const std::vector<VertexContact> &NearTriangles::contacts(const double *x, double range)
@@ -388,7 +402,8 @@ std::size_t NearTriangles::bytes() const
          surfaces_.capacity() * sizeof(Surface) + motion_.bytes() +
          spheres_.triangle.capacity() * (4 * sizeof(float) + sizeof(Surface) + sizeof(int)) +
          groups_.capacity() * sizeof(Group) + near_.capacity() * sizeof(Near) +
-         others_.capacity() * sizeof(others_[0]) + candidates_.capacity() * sizeof(Candidate) +
+         others_.capacity() * sizeof(others_[0]) + candidates_.distance.capacity() * sizeof(float) +
+         candidates_.triangle.capacity() * sizeof(int) +
          contacts_.capacity() * sizeof(VertexContact);
 }
 

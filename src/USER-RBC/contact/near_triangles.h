@@ -72,26 +72,29 @@ class NearTriangles {
  private:
   enum class Side : std::int32_t { unknown, outside, inside };
 
-  /// Triangles of one surface near one point.
+  /// Triangles of one surface near one point: candidates from `begin` up to those of the next group.
   struct Group {
-    int point, begin, end;
-    int nearest;    ///< when last looked for
-    Side side;      ///< of the surface on which the point was when built
+    int point, begin;
+    float distance;    ///< the least of its candidates
+    int nearest;       ///< candidate when last looked for
+    Side side;         ///< of the surface on which the point was when built
   };
   /// A group that may be in range, and the square of the distance of its nearest triangle.
   struct Near {
     int group;
     double distance2;
   };
-  /// A triangle and its distance when built, or a little less. Kept small: there are many.
-  struct Candidate {
-    float distance;
-    int triangle;
+  /// Triangles and their distances when built, or a little less. Kept small: there are many.
+  struct Candidates {
+    std::vector<float> distance;
+    std::vector<int> triangle;
+
+    int count() const { return static_cast<int>(triangle.size()); }
   };
-  /// Likewise, while those of a point are sorted.
+  /// A triangle near the current point.
   struct Found {
     Surface surface;
-    double distance;
+    float distance;
     int triangle;
   };
   struct Sphere {
@@ -134,7 +137,7 @@ class NearTriangles {
   int hit_count_ = 0;
   std::vector<Found> found_;
   std::vector<Group> groups_;
-  std::vector<Candidate> candidates_;
+  Candidates candidates_;
   std::vector<Near> near_;                     // some of the groups
   std::vector<std::pair<int, int>> others_;    // of these, and candidates that may be nearer
   std::vector<VertexContact> contacts_;
@@ -160,7 +163,9 @@ class NearTriangles {
   bool any_seen(int first_bin, int last_bin, Surface unseen) const;
   template <typename Pair, typename Take>
   void visit_distances(const double *x, int count, const Pair &pair, const Take &take) const;
-  void add_candidates(const double *x, int point);
+  void find_candidates(const double *x, int point);
+  void add_groups(int point);
+  int end_of(int group) const;
   const int *corners(int candidate) const;
   std::size_t find_near_groups(std::size_t g, double range);
   void find_nearest(const double *x, double range);

@@ -21,13 +21,13 @@ constexpr double TOUCHING = 1e-10;
 
 bool NearTriangles::has_kept_side(const Group &group) const
 {
-  return candidates_[group.begin].distance > held_distance(0, motion_.around(group.point));
+  return group.distance > held_distance(0, motion_.around(group.point));
 }
 
 void NearTriangles::add_contact(const double *x, Group &group)
 {
   const PlainVector p = at(x, group.point);
-  const std::array<int, 3> &corner = (*triangles_)[candidates_[group.nearest].triangle].corner;
+  const std::array<int, 3> &corner = (*triangles_)[candidates_.triangle[group.nearest]].corner;
   const PlainVector a = at(x, corner[0]), b = at(x, corner[1]), c = at(x, corner[2]);
   const auto weight = closest_point_weights(p, a, b, c);
   const PlainVector apart = p - weighted_point(weight, a, b, c), face = cross(b - a, c - a);
