@@ -78,10 +78,12 @@ TEST_P(Parts, GiveTheForcesAndSumToTheEnergiesOfTheWhole)
   const Result whole = evaluate(shape, parameters, x);
   const double scale = total_norm(whole.force) / shape.vertex_count();
   rbc::MembraneModel model(shape, parameters);    // the same for all parts, in turn
+  rbc::VolumeGradient of_volume(shape);
   const double unknown = std::numeric_limits<double>::quiet_NaN();
 
   for (const Owners &owners : splits(x)) {
     rbc::AreaVolume size;
+    double by_gradient = 0;
     rbc::MembraneEnergy energy;
     for (int owner = 0; owner < count(owners); ++owner) {
       const bool bends = parameters.bending > 0;
@@ -96,10 +98,11 @@ TEST_P(Parts, GiveTheForcesAndSumToTheEnergiesOfTheWhole)
         for (int v : shape.triangles[t]) ASSERT_TRUE(known[v]);
       model.set_cell(elements, near);
       const rbc::AreaVolume share = model.area_and_volume();
-      model.volume_gradient(gradient.data());
+      const double volume = of_volume.find(elements, near.data(), gradient.data());
       const rbc::MembraneEnergy part = model.forces(whole.size, force);
       size.area += share.area;
       size.volume += share.volume;
+      by_gradient += volume;
       energy.sheet += part.sheet;
       energy.bending += part.bending;
       energy.area += part.area;
@@ -112,6 +115,7 @@ TEST_P(Parts, GiveTheForcesAndSumToTheEnergiesOfTheWhole)
     }
     EXPECT_NEAR(size.area, whole.size.area, 1e-13 * whole.size.area);
     EXPECT_NEAR(size.volume, whole.size.volume, 1e-13 * whole.size.volume);
+    EXPECT_NEAR(by_gradient, whole.size.volume, 1e-13 * whole.size.volume);
     EXPECT_NEAR(energy.sheet, whole.energy.sheet, 1e-13 * whole.energy.sheet);
     EXPECT_NEAR(energy.bending, whole.energy.bending, 1e-13 * whole.energy.bending);
     EXPECT_NEAR(energy.area, whole.energy.area, 1e-13 * whole.energy.area);
@@ -131,8 +135,7 @@ TEST(Measure, VolumeGradientIsThatOfTheVolume)
     model.set_cell(all, x);
     return model.area_and_volume().volume;
   };
-  volume();
-  model.volume_gradient(gradient.data());
+  rbc::VolumeGradient(shape).find(all, x.data(), gradient.data());
   for (int v = 0; v < shape.vertex_count(); ++v)
     for (int d = 0; d < 3; ++d) {
       // The volume is linear in each coordinate.

@@ -32,7 +32,7 @@ CellMembranes::CellMembranes(LAMMPS *lmp, std::string style, int groupbit,
                              MembraneSettings settings) :
     Pointers(lmp),
     style_(std::move(style)), groupbit_(groupbit), settings_(std::move(settings)),
-    model_(*settings_.surface, settings_.elastic),
+    model_(*settings_.surface, settings_.elastic), gradient_of_(*settings_.surface),
     cells_(lmp, *settings_.surface, groupbit, style_),
     own_stop_(std::make_shared<CollectiveStop>(lmp)), stop_(own_stop_)
 {
@@ -387,15 +387,14 @@ void CellMembranes::find_volume_sums()
   sums_.assign(3 * local.size(), 0.0);
   for (std::size_t c = 0; c < local.size(); ++c) {
     const LocalCells::Cell &cell = local[c];
-    set_current_cell(cell);
+    cells_.gather(cell, x_);
     Vec3 *const gradient = &volume_gradient_[c * size];
-    model_.volume_gradient(gradient);
+    sums_[3 * c + 2] = gradient_of_.find(*cell.elements, x_.data(), gradient);
     for (int i = 0; i < size; ++i) {
       if (!cell.elements->owned[i]) continue;
       sums_[3 * c] += gradient[i].dot(Vec3(v[cell.atom[i]]));
       sums_[3 * c + 1] += gradient[i].squaredNorm();
     }
-    sums_[3 * c + 2] = model_.area_and_volume().volume;
   }
   cells_.sum_shared(sums_, 3);
 }

@@ -4,6 +4,7 @@
 #include "cells/rbc_local_cells.h"
 #include "cells/rbc_swelling.h"
 #include "membrane/surface_viscosity.h"
+#include "membrane/volume_gradient.h"
 #include "support/rbc_step_part.h"
 
 #include <functional>
@@ -145,6 +146,7 @@ class CellMembranes : public StepPart, protected Pointers {
   int groupbit_;
   MembraneSettings settings_;
   rbc::MembraneModel model_;
+  rbc::VolumeGradient gradient_of_;
   double thickness_ = -1;    ///< not known yet
   LocalCells cells_;
   std::shared_ptr<CollectiveStop> own_stop_, stop_;

@@ -13,8 +13,8 @@ void CellMembranes::visit_volume_gradients(const GradientVisitor &visit)
   const int size = shape().vertex_count();
   gradient_.resize(size);
   for (const LocalCells::Cell &cell : cells_.cells()) {
-    set_current_cell(cell);
-    model_.volume_gradient(gradient_.data());
+    cells_.gather(cell, x_);
+    gradient_of_.find(*cell.elements, x_.data(), gradient_.data());
     for (int i = 0; i < size; ++i)
       if (cell.elements->owned[i]) visit(cell.atom[i], gradient_[i], x_[i]);
   }

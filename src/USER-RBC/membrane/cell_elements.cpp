@@ -63,8 +63,10 @@ void CellElements::connect(const SurfaceTemplate &shape)
     if (owned[v])
       for (int t : shape.incident_triangles[v])
         for (int c = 0; c < 3; ++c)
-          if (shape.triangles[t][c] == v)
+          if (shape.triangles[t][c] == v) {
             incident_corners.push_back(c * owned_triangles + place[t]);
+            incident_triangles.push_back(place[t]);
+          }
     incident_begin.push_back(static_cast<int>(incident_corners.size()));
   }
 }

@@ -20,9 +20,9 @@ struct CellElements {
   /// 1 where this rank counts the energy, 0 where another does: the owner of the first vertex.
   std::vector<double> triangle_energy_weight, hinge_energy_weight;
 
-  /// Corners around each owned vertex: of vertex v from incident_begin[v] to
+  /// Corners around each owned vertex, and their triangles: of vertex v from incident_begin[v] to
   /// incident_begin[v + 1]. Corner c of triangle t is c * owned_triangles + t.
-  std::vector<int> incident_corners, incident_begin;
+  std::vector<int> incident_corners, incident_triangles, incident_begin;
 
   static CellElements whole(const SurfaceTemplate &shape);
 

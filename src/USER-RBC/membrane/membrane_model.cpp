@@ -83,16 +83,6 @@ AreaVolume MembraneModel::area_and_volume() const
           })};
 }
 
-void MembraneModel::volume_gradient(Vec3 *gradient) const
-{
-  std::fill_n(gradient, shape_.vertex_count(), Vec3::Zero());
-  for (int t = 0; t < elements_->owned_triangles; ++t) {
-    const PlainVector third = twice_area_[t] / 6 * normal_[t];
-    for (const std::vector<int> &corner : elements_->corners)
-      gradient[corner[t]] += Vec3(third.x, third.y, third.z);
-  }
-}
-
 void MembraneModel::surface_shear(const Vec3 *v, Vec3 *shear, double *area) const
 {
   std::fill_n(shear, shape_.vertex_count(), Vec3::Zero());

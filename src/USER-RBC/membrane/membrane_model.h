@@ -66,10 +66,6 @@ class MembraneModel {
   /// This rank's share of the size.
   AreaVolume area_and_volume() const;
 
-  /// dV/dx of the vertices owned (others are left undefined), an entry for each vertex of the
-  /// template.
-  void volume_gradient(Vec3 *gradient) const;
-
   /// v holds a velocity for each vertex. Sets for each vertex that is owned a third of the areas
   /// around it, and that times the sum over two tangents a of (n . dv/da) a + (a . dv/da) n, with n
   /// the outward normal.
