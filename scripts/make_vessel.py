@@ -5,7 +5,7 @@ mesh`.
 The vessel begins at x = 0, ends at x = length and is open there: in a box that is periodic in x and
 as long, it goes on for ever. With --closed it has flat lids there, for a longer box and `fix
 rbc/port`. Its axis is y = z = 0 (shift it with the region). All lengths are in one unit, um in
-`units micro`.
+`units micro`. A network lies where its nodes do, and is closed by half spheres about its ends.
 
 Shapes
   tube         straight and round
@@ -13,12 +13,15 @@ Shapes
                period of a cosine, so that the wall has no edges
   bifurcation  a tube that parts into two in the plane z = 0, which join again. Daughters have the diameter of Murray's
                law, 2^(-1/3) of the parent's, unless told otherwise
+  network      round tubes between nodes, from two tables: of nodes, with the columns node, x, y, z, and of segments,
+               with the columns from, to (names of nodes) and radius. Where tubes meet, edges are rounded
 
 Examples
   make_vessel.py tube --length 45 --diameter 22.5 tube.stl
   make_vessel.py throat --unit 8 throat.stl                    # Figure 6 of Xu et al. 2017 for cells of 8 um
   make_vessel.py bifurcation --length 120 --diameter 20 --distance 24 fork.stl
   make_vessel.py bifurcation --length 60 --diameter 16 --closed fork.stl       # for ports at both ends
+  make_vessel.py network --nodes nodes.csv --segments segments.csv net.stl     # examples/network
 """
 import math
 import sys
@@ -30,11 +33,15 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D
 
+import vessel_network
+
 CENTRELINE = 400      # points along it
 MOST_TRIANGLES = 2e7
+MOST_CELLS = 2e8      # of the grid around a network: 1.6 GB
 SIZES = {             # that only some shapes have
     "throat_diameter": "throat", "throat_length": "throat", "taper": "throat", "daughter_diameter": "bifurcation",
-    "distance": "bifurcation"}
+    "distance": "bifurcation", "nodes": "network", "segments": "network"}
+NOT_OF_NETWORKS = "unit", "length", "diameter", "closed"
 BLEND = 0.15          # of the parent's diameter: where branches meet
 
 
@@ -160,9 +167,9 @@ def write_stl(path, points, triangles):
 
 def parse(words):
     parser = command_line.parser(__doc__)
-    parser.add_argument("shape", choices=["tube", "throat", "bifurcation"])
+    parser.add_argument("shape", choices=["tube", "throat", "bifurcation", "network"])
     parser.add_argument("output", type=Path, help="the STL file (binary)")
-    parser.add_argument("--unit", type=float, default=1, help="all defaults below are in this length (1)")
+    parser.add_argument("--unit", type=float, help="all defaults below are in this length (1)")
     parser.add_argument("--length", type=float, help="of the vessel (15)")
     parser.add_argument("--diameter", type=float, help="of the tube or parent (3)")
     parser.add_argument("--throat-diameter", type=float, help="(half the diameter)")
@@ -170,29 +177,56 @@ def parse(words):
     parser.add_argument("--taper", type=float, help="length of each taper (two fifteenths of the length)")
     parser.add_argument("--daughter-diameter", type=float, help="(2^(-1/3) diameters)")
     parser.add_argument("--distance", type=float, help="between the axes of the daughters (1.2 diameters)")
-    parser.add_argument("--edge", type=float, help="of the triangles (a twentieth of the diameter)")
+    parser.add_argument("--nodes", type=Path, metavar="CSV", help="table of a network: node, x, y, z")
+    parser.add_argument("--segments", type=Path, metavar="CSV", help="table of a network: from, to, radius")
+    parser.add_argument("--edge", type=float, help="of the triangles (a twentieth of the least diameter)")
     parser.add_argument("--closed", action="store_true", help="with lids on both ends")
     options = parser.parse_args(words)
     for name, shape in SIZES.items():
         if getattr(options, name) is not None and options.shape != shape:
             parser.error(f"--{name.replace('_', '-')} is for the shape {shape}, not {options.shape}")
-
-    def default(name, value):
-        if getattr(options, name) is None:
-            setattr(options, name, value)
-        if not 0 < getattr(options, name) < math.inf:
-            parser.error(f"--{name.replace('_', '-')} {getattr(options, name)} must be > 0 and finite")
-    default("unit", 1)
-    default("length", 15 * options.unit)
-    default("diameter", 3 * options.unit)
-    default("throat_diameter", options.diameter / 2)
-    default("throat_length", options.length / 15)
-    default("taper", 2 * options.length / 15)
-    default("daughter_diameter", options.diameter * 2**(-1 / 3))
-    default("distance", 1.2 * options.diameter)
-    default("edge", options.diameter / 20)
-    check(parser, options)
+    if options.shape == "network":
+        complete_network(parser, options)
+    else:
+        complete(parser, options)
+        check(parser, options)
     return options
+
+
+def default(parser, options, name, value):
+    if getattr(options, name) is None:
+        setattr(options, name, value)
+    if not 0 < getattr(options, name) < math.inf:
+        parser.error(f"--{name.replace('_', '-')} {getattr(options, name)} must be > 0 and finite")
+
+
+def complete(parser, options):
+    """Gives sizes that were left out their defaults."""
+    default(parser, options, "unit", 1)
+    default(parser, options, "length", 15 * options.unit)
+    default(parser, options, "diameter", 3 * options.unit)
+    default(parser, options, "throat_diameter", options.diameter / 2)
+    default(parser, options, "throat_length", options.length / 15)
+    default(parser, options, "taper", 2 * options.length / 15)
+    default(parser, options, "daughter_diameter", options.diameter * 2**(-1 / 3))
+    default(parser, options, "distance", 1.2 * options.diameter)
+    default(parser, options, "edge", options.diameter / 20)
+
+
+def complete_network(parser, options):
+    """Reads its tables."""
+    for name in NOT_OF_NETWORKS:
+        if getattr(options, name):
+            parser.error(f"--{name} is not for the shape network, whose sizes are in its tables")
+    if options.nodes is None or options.segments is None:
+        parser.error("the shape network needs --nodes and --segments")
+    options.network = vessel_network.read_network(options.nodes, options.segments)
+    default(parser, options, "edge", options.network.radii.min() / 10)
+    check_count(parser, options, 2 * math.pi * (options.network.radii * options.network.lengths()).sum())
+    cells = np.prod(options.network.extent() / options.edge)
+    if cells > MOST_CELLS:
+        parser.error(f"--edge {options.edge:g} makes about {cells:.1g} cells in the box around the network, more than "
+                     f"{MOST_CELLS:.0g}")
 
 
 def check(parser, options):
@@ -204,14 +238,20 @@ def check(parser, options):
                      f"{options.length:g}")
     if options.shape == "bifurcation" and options.distance < options.daughter_diameter + 2 * options.edge:
         parser.error(f"--distance {options.distance:g} leaves the daughters, {options.daughter_diameter:g} wide, in one")
-    triangles = 2 * math.pi * options.diameter * options.length / options.edge**2
+    check_count(parser, options, math.pi * options.diameter * options.length)
+
+
+def check_count(parser, options, area):
+    triangles = 2 * area / options.edge**2
     if triangles > MOST_TRIANGLES:
         parser.error(f"--edge {options.edge:g} makes about {triangles:.1g} triangles, more than {MOST_TRIANGLES:.0g}")
 
 
 def main(words):
     options = parse(words)
-    if options.shape == "bifurcation":
+    if options.shape == "network":
+        points, triangles = vessel_network.surface(options.network, options.edge)
+    elif options.shape == "bifurcation":
         points, triangles = fork(options)
     else:
         radius = tube_radius(options) if options.shape == "tube" else throat_radius(options)
@@ -221,6 +261,7 @@ def main(words):
     write_stl(options.output, points, triangles)
     volume, area = enclosed_volume(points, triangles)
     print(f"{options.output}: {len(triangles)} triangles, area {area:.6g}, volume {volume:.6g}, "
+          f"x {points[:, 0].min():.6g} to {points[:, 0].max():.6g}, "
           f"y {points[:, 1].min():.6g} to {points[:, 1].max():.6g}, "
           f"z {points[:, 2].min():.6g} to {points[:, 2].max():.6g}")
 
