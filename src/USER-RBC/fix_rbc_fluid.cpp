@@ -50,9 +50,13 @@ void FixRBCFluid::check_box() const
   if (domain->dimension != 3) error->all(FLERR, "Fix rbc/fluid requires a 3d simulation");
   if (domain->triclinic) error->all(FLERR, "Fix rbc/fluid requires an orthogonal simulation box");
   if (!domain->xperiodic || !domain->yperiodic)
-    error->all(FLERR, "Fix rbc/fluid requires periodic boundaries in x and y");
+    error->all(FLERR,
+               "Fix rbc/fluid requires periodic boundaries in x and y (boundary p p p, or p p f "
+               "between plates); a vessel whose ends are ports lies as a whole, closed by walls of "
+               "atoms, within such a box, 4 dx from its sides");
   if (!domain->zperiodic && (domain->boundary[2][0] != 1 || domain->boundary[2][1] != 1))
-    error->all(FLERR, "Fix rbc/fluid requires z to be periodic or fixed (boundary p or f)");
+    error->all(FLERR, "Fix rbc/fluid requires z to be periodic or fixed (boundary p p p, or p p f between "
+               "plates)");
 }
 
 /* ---------------------------------------------------------------------- */
