@@ -1,9 +1,12 @@
 #include "fluid/mobility_preconditioner.h"
 
 #include "fluid/marker_cloud.h"
+#include "fluid/marker_normal.h"
+#include "fluid/normal_alias.h"
 
 #include <Eigen/Cholesky>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <tuple>
@@ -35,6 +38,10 @@ constexpr double slip_length = 0.0003;
 // Markers within discs of this radius, in spacings, are counted to find how much of the surface
 // each of them stands for.
 constexpr double disc = 2;
+
+// The part of normal_alias() that is taken off: what is left of an even pressure must not turn
+// negative where fewer waves are seen than in the mean.
+constexpr double taken_off = 0.9;
 
 // Added to the mobility of each marker with itself, relative to it.
 constexpr double regularisation = 0.005;
@@ -137,7 +144,7 @@ void MobilityPreconditioner::build(const Flow &flow, const MarkerSet &markers, c
   const MarkerCloud cloud = gather(flow, markers.count, markers.position, body);
   const double h = std::cbrt(flow.grid().cell_volume());
   const double viscosity = flow.equations().viscosity;
-  const auto compliances = set_compliance(cloud, h, viscosity);
+  const auto compliances = set_compliance(cloud, markers, h, viscosity);
   set_columns(cloud, choose_rows(cloud, h), compliances, blob_like(markers, h, viscosity));
 }
 
@@ -207,7 +214,8 @@ std::vector<std::vector<int>> MobilityPreconditioner::choose_rows(const MarkerCl
   return columns;
 }
 
-std::vector<double> MobilityPreconditioner::set_compliance(const MarkerCloud &cloud, double h,
+std::vector<double> MobilityPreconditioner::set_compliance(const MarkerCloud &cloud,
+                                                           const MarkerSet &markers, double h,
                                                            double viscosity)
 {
   const double disc_area = pi * disc * disc * h * h;
@@ -223,11 +231,17 @@ std::vector<double> MobilityPreconditioner::set_compliance(const MarkerCloud &cl
       return true;
     });
   };
+  std::vector<int> inside;
+  alias_.resize(cloud.count());
   for (int marker = 0; marker < cloud.count(); ++marker) {
-    int inside = 0;
-    for_each_close(marker, [&](int) { ++inside; });
-    areas[marker] = disc_area / inside;
+    inside.clear();
+    for_each_close(marker, [&](int other) { inside.push_back(other); });
+    areas[marker] = disc_area / static_cast<double>(inside.size());
     compliances[marker] = slip / areas[marker];
+    const Real3 normal = marker_normal(cloud, marker, inside);
+    const double seen = taken_off * normal_alias(markers.kernel, markers.kind, normal);
+    const double root = std::sqrt(std::max(seen, 0.0) * h / (viscosity * disc_area));
+    alias_[marker] = {root * normal[0], root * normal[1], root * normal[2]};
   }
   other_compliance_ = slip / disc_area;
   own_compliance_.clear();
@@ -329,20 +343,28 @@ void MobilityPreconditioner::apply_compliance(const double *force, double *veloc
 {
   MPI_Allgatherv(force, 3 * count_, MPI_DOUBLE, all_.data(), numbers_.data(), offsets_.data(),
                  MPI_DOUBLE, comm_);
-  for (int n = 0; n < count_; ++n)
-    for (int d = 0; d < 3; ++d) {
-      double others = 0;
-      for (int m = disc_starts_[n]; m < disc_starts_[n + 1]; ++m)
-        others += all_[3 * std::size_t(disc_[m]) + d];
-      velocity[3 * n + d] = own_compliance_[n] * force[3 * n + d] - other_compliance_ * others;
+  for (int n = 0; n < count_; ++n) {
+    const Real3 &mine = alias_[first_ + n];
+    Real3 others{0, 0, 0};
+    double seen = 0;
+    for (int m = disc_starts_[n]; m < disc_starts_[n + 1]; ++m) {
+      const double *const f = all_.data() + 3 * std::size_t(disc_[m]);
+      const Real3 &its = alias_[disc_[m]];
+      for (int d = 0; d < 3; ++d) others[d] += f[d];
+      const double along = its[0] * f[0] + its[1] * f[1] + its[2] * f[2];
+      seen += mine[0] * its[0] + mine[1] * its[1] + mine[2] * its[2] < 0 ? -along : along;
     }
+    for (int d = 0; d < 3; ++d)
+      velocity[3 * n + d] =
+          own_compliance_[n] * force[3 * n + d] - other_compliance_ * others[d] - mine[d] * seen;
+  }
 }
 
 std::size_t MobilityPreconditioner::bytes() const
 {
   return (starts_.capacity() + rows_.capacity() + disc_starts_.capacity() + disc_.capacity()) *
              sizeof(int) +
-         blocks_.capacity() * sizeof(float) +
+         blocks_.capacity() * sizeof(float) + alias_.capacity() * sizeof(Real3) +
          (all_.capacity() + sums_.capacity() + own_compliance_.capacity()) * sizeof(double);
 }
 

@@ -25,8 +25,9 @@ class MobilityPreconditioner {
   /// Computes the velocity with which markers yield to forces, in addition to that of the flow. It
   /// is that of a slip length of 0.0003 grid spacings, applied to the force of a marker less the
   /// mean traction within two spacings of it. Without it, forces that the kernel averages out
-  /// (between markers much closer than a spacing) would be unbounded. Symmetric and positive
-  /// semidefinite. Three numbers for each marker of this rank. Collective.
+  /// (between markers much closer than a spacing) would be unbounded. From this most of what
+  /// normal_alias() says is taken, applied to the normal part of this mean traction: what markers
+  /// see though no fluid moves. Symmetric. Three numbers for each marker of this rank. Collective.
   void apply_compliance(const double *force, double *velocity);
 
   /// Collective.
@@ -50,11 +51,15 @@ class MobilityPreconditioner {
   std::vector<int> disc_starts_, disc_;
   std::vector<double> own_compliance_;
   double other_compliance_ = 0;
+  // Of all markers, along their normals: the product of two of them is what the one sees of the
+  // other's force by normal_alias().
+  std::vector<Real3> alias_;
 
   MarkerCloud gather(const Flow &flow, int count, const double *position, const int *body);
   std::vector<std::vector<int>> choose_rows(const MarkerCloud &cloud, double h) const;
   /// Returns the compliance of each marker of the cloud.
-  std::vector<double> set_compliance(const MarkerCloud &cloud, double h, double viscosity);
+  std::vector<double> set_compliance(const MarkerCloud &cloud, const MarkerSet &markers, double h,
+                                     double viscosity);
   void set_columns(const MarkerCloud &cloud, const std::vector<std::vector<int>> &columns,
                    const std::vector<double> &compliances, const Blob &blob);
   void add_column(const std::vector<Real3> &apart, const std::vector<double> &compliance,
