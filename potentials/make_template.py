@@ -59,9 +59,12 @@ def template(shape, frequency, radius, match_volume=False):
     points += 0.0  # no negative zeros
     surface_mesh.check(points, triangles)
     if match_volume:
-        volume = surface_mesh.enclosed_volume(points, triangles)
-        points *= (exact(shape, radius)[1] / volume) ** (1 / 3)
+        points = scaled_to_volume(exact(shape, radius)[1], points, triangles)
     return points, triangles
+
+
+def scaled_to_volume(volume, points, triangles):
+    return points * (volume / surface_mesh.enclosed_volume(points, triangles)) ** (1 / 3)
 
 
 def exact(shape, radius):
@@ -182,7 +185,7 @@ def parse(arguments):
     shape.add_parser("disc", parents=[geodesic, smooth, files], help="biconcave disc").add_argument(
         "--diameter", type=POSITIVE, default=7.82, help="diameter (default 7.82)")
 
-    of = shape.add_parser("spheroid", parents=[files], help="oblate or prolate spheroid")
+    of = shape.add_parser("spheroid", parents=[smooth, files], help="oblate or prolate spheroid")
     form = of.add_mutually_exclusive_group(required=True)
     form.add_argument("--axis-ratio", type=POSITIVE, metavar="Q",
                       help="length of the axis over the diameter across it: below 1 oblate, above prolate")
@@ -196,7 +199,8 @@ def parse(arguments):
                       help="template of a disc or sphere, with whose area, triangles and order of vertices")
     of.add_argument("-f", "--frequency", **frequency)
 
-    of_sickle = shape.add_parser("sickle", parents=[geodesic, files], help="ellipsoid bent along its long axis")
+    of_sickle = shape.add_parser("sickle", parents=[geodesic, smooth, files],
+                                 help="ellipsoid bent along its long axis")
     for name, default in (("length", 15.0), ("width", 4.0), ("thickness", 3.0)):
         of_sickle.add_argument("--" + name, type=POSITIVE, default=default,
                                help=f"axis of the ellipsoid (default {default:g})")
@@ -219,6 +223,9 @@ def parse(arguments):
             parser.error("spheroid needs --frequency")
         if args.prolate and args.axis_ratio:
             parser.error("spheroid --prolate goes with --reduced-volume")
+        if args.match_volume and not args.diameter:
+            parser.error("spheroid --match-volume goes with --diameter: --area and --like tell the "
+                         "area of the mesh")
     if args.shape == "sickle" and args.width * math.radians(args.bend) >= 2 * args.length:
         parser.error("sickle is bent so far that its inner side folds: lower --bend or --width")
     return args
@@ -244,6 +251,8 @@ def build(args):
         return *template(args.shape, args.frequency, radius, args.match_volume), exact(args.shape, radius)
     points += 0.0  # no negative zeros
     surface_mesh.check(points, triangles)
+    if args.match_volume:
+        points = scaled_to_volume(smooth[1], points, triangles)
     return points, triangles, smooth
 
 
@@ -262,10 +271,13 @@ def command(args):
 
 
 def title(args, smooth):
-    """First lines of the molecule file."""
-    citation = args.citation or CITATION.get(args.shape) or f"surface {Path(args.file).name}"
-    lines = [f"DATE: {DATE} UNITS: micro CONTRIBUTOR: USER-RBC CITATION: {citation}",
-             f"make_template.py {command(args)}"]
+    """First lines of the molecule file. A surface from a file is its user's: nothing is said of
+    who made it, when and in which units."""
+    citation = args.citation or CITATION.get(args.shape)
+    lines = [f"DATE: {DATE} UNITS: micro CONTRIBUTOR: USER-RBC CITATION: {citation}"]
+    if args.shape == "mesh":
+        lines = [f"CITATION: {citation}"] if citation else []
+    lines.append(f"make_template.py {command(args)}")
     known = ["{} {:.8g}".format(name, value) for name, value in zip(("area", "volume"), smooth) if value]
     return lines + (["smooth surface: " + ", ".join(known)] if known else [])
 

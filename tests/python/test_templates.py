@@ -133,6 +133,20 @@ class Template(unittest.TestCase):
         ratio = points[np.abs(plain) > 0.1] / plain[np.abs(plain) > 0.1]
         np.testing.assert_allclose(ratio, ratio[0], rtol=1e-13)
 
+    def test_match_volume_goes_with_all_shapes(self):
+        ellipsoid = math.pi / 6
+        for words, volume in (("sphere --radius 2", ellipsoid * 64),
+                              ("disc --diameter 7.82", disc_area_and_volume(3.91)[1]),
+                              ("spheroid --axis-ratio 0.4 --diameter 3", ellipsoid * 0.4 * 27),
+                              ("spheroid --reduced-volume 1 --diameter 3", ellipsoid * 27),
+                              ("sickle --length 15 --width 4 --thickness 3",
+                               ellipsoid * 15 * 4 * 3)):
+            with self.subTest(words), tempfile.TemporaryDirectory() as folder:
+                file = Path(folder, "s.mol")
+                make(*words.split(), "-f", 3, "--match-volume", "-o", file)
+                found = area_and_volume(*read_molecule(file))[1]
+                self.assertAlmostEqual(found / volume, 1, delta=1e-7)
+
     def test_triangles_are_well_shaped(self):
         for shape, angle, area_ratio in (("sphere", 53, 1.21), ("disc", 42, 1.55)):
             for f in (4, 6, 8, 16):
@@ -162,7 +176,8 @@ class Template(unittest.TestCase):
                       "cube -f 2", "disc", "spheroid -f 2 --axis-ratio 1", "spheroid --axis-ratio 1 --area 1",
                       "spheroid -f 2 --area 1 --reduced-volume 1.01", "sickle -f 2 --length 4 --width 4 --bend 180",
                       "spheroid -f 2 --reduced-volume 1 --like rbc_162.mol", "mesh", "mesh a.stl --area 1 --scale 2",
-                      "spheroid -f 2 --axis-ratio 2 --prolate --area 1"):
+                      "spheroid -f 2 --axis-ratio 2 --prolate --area 1",
+                      "spheroid -f 2 --axis-ratio 2 --area 1 --match-volume"):
             with self.subTest(words), contextlib.redirect_stderr(io.StringIO()):
                 with self.assertRaises(SystemExit):
                     make_template.main(words.split())
