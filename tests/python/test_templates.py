@@ -27,7 +27,8 @@ from rbc.shear_plot import reference_series  # noqa: E402
 from rbc.tables import read_ave_time, read_csv, read_table  # noqa: E402
 
 GEODESIC = [f"{shape}_{size}.mol" for shape in ("rbc", "capsule") for size in (162, 362, 642, 2562)]
-SHIPPED = GEODESIC + ["rbc_642_spheroid95.mol", "rbc_162_spheroid98.mol", "rbc_642_spheroid98.mol", "platelet_42.mol"]
+SHIPPED = GEODESIC + ["rbc_642_spheroid95.mol", "rbc_162_spheroid98.mol", "rbc_642_spheroid98.mol", "platelet_42.mol",
+                      "white_362.mol", "white_362_relaxed.mol"]
 
 
 def make(*words):
