@@ -1,6 +1,6 @@
 """Runs the commands that a tutorial shows, in a copy of its folder, and compares what they print.
 
-In a page `.. code-block:: bash` holds commands, and the `.. code-block:: none` that follows it
+In a page `.. code-block:: text` holds commands, and the `.. code-block:: none` that follows it
 lines of what they print, in their order.
 """
 
@@ -13,7 +13,7 @@ from pathlib import Path
 from lammps_case import ENVIRONMENT, ROOT, Result
 
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
-BLOCK = re.compile(r"^\.\. code-block:: (bash|none)\n\n((?:   .*\n|\n)+)", re.MULTILINE)
+BLOCK = re.compile(r"^\.\. code-block:: (text|none)\n\n((?:   .*\n|\n)+)", re.MULTILINE)
 
 
 def steps_of(page):
@@ -22,7 +22,7 @@ def steps_of(page):
     steps = []
     for language, block in BLOCK.findall(text):
         lines = [line.strip() for line in block.replace("\\\n", "").splitlines() if line.strip()]
-        if language == "bash":
+        if language == "text":
             steps.append((lines, []))
         else:
             steps[-1][1].extend(lines)
