@@ -61,9 +61,11 @@ def follow(page, example, tolerance=0.01, timed=False, free=()):
     folder = workplace(page, example)
     tools = folder.parents[1] / "bin"
     environment = {**os.environ, **ENVIRONMENT, "PATH": f"{tools}:{os.environ['PATH']}"}
-    results = []
+    results, lmp = [], os.environ["LMP_RBC"]
     for commands, shown in steps_of(page):
-        done = subprocess.run(["bash", "-e", "-c", "\n".join(commands)], cwd=folder, text=True,
+        # which runs build/lmp_rbc of the repository unless told otherwise
+        script = "\n".join(commands).replace("converge.py ", f"converge.py --lmp {lmp} ")
+        done = subprocess.run(["bash", "-e", "-c", script], cwd=folder, text=True,
                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, timeout=500,
                               stderr=subprocess.STDOUT, check=False, env=environment)
         if done.returncode:
