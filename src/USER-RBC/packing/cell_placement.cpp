@@ -1,0 +1,169 @@
+#include "packing/cell_placement.h"
+
+#include "geometry/triangle_distance.h"
+#include "packing/surface_gap.h"
+
+#include <cmath>
+#include <random>
+
+namespace rbc {
+
+namespace {
+
+constexpr int most_centres = 1000;    // of a draw, until one lies in the enclosure
+
+struct Bounds {
+  Vec3 lo = Vec3::Constant(HUGE_VAL), hi = Vec3::Constant(-HUGE_VAL);
+
+  void include(const Vec3 &x)
+  {
+    lo = lo.cwiseMin(x);
+    hi = hi.cwiseMax(x);
+  }
+  bool near(const Bounds &other, double reach) const
+  {
+    return ((lo - other.hi).array() < reach).all() && ((other.lo - hi).array() < reach).all();
+  }
+};
+
+struct BoundedTriangle {
+  Triangle corners;
+  Bounds bounds;
+};
+
+Bounds bounds_of(const std::vector<Vec3> &vertices)
+{
+  Bounds bounds;
+  for (const Vec3 &vertex : vertices) bounds.include(vertex);
+  return bounds;
+}
+
+/// The triangles that come near to what lies within bounds.
+std::vector<BoundedTriangle> facing(const std::vector<Vec3> &vertices,
+                                    const std::vector<SurfaceTemplate::Corners> &triangles,
+                                    const Bounds &bounds, double reach)
+{
+  std::vector<BoundedTriangle> found;
+  for (const auto &[i, j, k] : triangles) {
+    BoundedTriangle triangle{{vertices[i], vertices[j], vertices[k]}, {}};
+    for (const Vec3 &corner : triangle.corners) triangle.bounds.include(corner);
+    if (triangle.bounds.near(bounds, reach)) found.push_back(triangle);
+  }
+  return found;
+}
+
+/// By the solid angle that a closed surface fills, seen from there (van Oosterom and Strackee,
+/// IEEE Trans Biomed Eng 30, 125, 1983).
+bool is_inside(const Vec3 &x, const CellPlacement::Surface &surface)
+{
+  double half_angle = 0;
+  for (const auto &[i, j, k] : *surface.triangles) {
+    const Vec3 a = surface.vertices[i] - x, b = surface.vertices[j] - x,
+               c = surface.vertices[k] - x;
+    const double na = a.norm(), nb = b.norm(), nc = c.norm();
+    half_angle +=
+        std::atan2(a.dot(b.cross(c)), na * nb * nc + a.dot(b) * nc + b.dot(c) * na + c.dot(a) * nb);
+  }
+  return std::abs(half_angle) > M_PI;    // 2 pi inside, 0 outside
+}
+
+}    // namespace
+
+CellPlacement::CellPlacement(const SurfaceTemplate &cell, double gap, unsigned seed) :
+    shape_(cell, gap), gap_(gap), seed_(seed)
+{
+}
+
+void CellPlacement::confine(const Enclosure &enclosure, const Vec3 &lo, const Vec3 &length)
+{
+  enclosure_ = &enclosure;
+  lo_ = lo;
+  length_ = length;
+}
+
+void CellPlacement::clear()
+{
+  placed_.clear();
+  points_.clear();
+}
+
+void CellPlacement::avoid_surface(Surface surface)
+{
+  Vec3 centre = Vec3::Zero();
+  for (const Vec3 &vertex : surface.vertices) centre += vertex;
+  centre /= static_cast<double>(surface.vertices.size());
+  double radius = 0;
+  for (const Vec3 &vertex : surface.vertices) radius = std::max(radius, (vertex - centre).norm());
+  placed_.push_back({std::move(surface), centre, radius});
+}
+
+std::optional<CellPlacement::Place> CellPlacement::find(int draws)
+{
+  for (int n = 0; n < draws; ++n) {
+    const std::optional<RigidCell> cell = draw(drawn_++);
+    if (!cell || !fits(*cell)) continue;
+    Surface surface{{}, &shape_.surface.triangles};
+    for (int v = 0; v < shape_.surface.vertex_count(); ++v)
+      surface.vertices.push_back(cell->vertex(v));
+    avoid_surface(std::move(surface));
+    return Place{cell->centre, cell->rotation};
+  }
+  return std::nullopt;
+}
+
+/// The centre is uniform in the enclosure, the direction uniform over all rotations (Shoemake,
+/// Graphics Gems III, 1992).
+std::optional<RigidCell> CellPlacement::draw(std::int64_t number) const
+{
+  const auto bits = static_cast<std::uint64_t>(number);
+  std::seed_seq seeds{seed_, static_cast<unsigned>(bits), static_cast<unsigned>(bits >> 32)};
+  std::mt19937_64 random(seeds);
+  const auto uniform = [&random] { return std::ldexp(static_cast<double>(random() >> 11), -53); };
+  for (int n = 0; n < most_centres; ++n) {
+    Vec3 centre;
+    for (int d = 0; d < 3; ++d) centre[d] = lo_[d] + uniform() * length_[d];
+    if (enclosure_ && !enclosure_->contains(centre)) continue;
+    const double share = uniform(), first = 2 * M_PI * uniform(), second = 2 * M_PI * uniform();
+    const double a = std::sqrt(1 - share), b = std::sqrt(share);
+    const Eigen::Quaterniond turn(b * std::cos(second), a * std::sin(first), a * std::cos(first),
+                                  b * std::sin(second));
+    return RigidCell{&shape_, centre, turn.toRotationMatrix(), 1};
+  }
+  return std::nullopt;
+}
+
+bool CellPlacement::fits(const RigidCell &cell) const
+{
+  std::vector<Vec3> vertices;
+  for (int v = 0; v < shape_.surface.vertex_count(); ++v) {
+    vertices.push_back(cell.vertex(v));
+    if (enclosure_ && !enclosure_->contains(vertices.back())) return false;
+  }
+  for (const Vec3 &point : points_)
+    if ((point - cell.centre).norm() < reach() && surface_gap(point, cell, gap_) < gap_)
+      return false;
+  for (const Placed &other : placed_)
+    if ((other.centre - cell.centre).norm() < reach() + other.radius &&
+        !is_clear(cell, vertices, other.surface))
+      return false;
+  return true;
+}
+
+/// The distance field, whose errors are small beside a gap, tells of most that do not fit, and of
+/// surfaces within the cell.
+bool CellPlacement::is_clear(const RigidCell &cell, const std::vector<Vec3> &vertices,
+                             const Surface &surface) const
+{
+  for (const Vec3 &vertex : surface.vertices)
+    if (shape_.field.at(cell.body(vertex)).distance < gap_) return false;
+  const Bounds here = bounds_of(vertices), there = bounds_of(surface.vertices);
+  if (!here.near(there, gap_)) return true;
+  const auto others = facing(surface.vertices, *surface.triangles, here, gap_);
+  for (const BoundedTriangle &own : facing(vertices, shape_.surface.triangles, there, gap_))
+    for (const BoundedTriangle &other : others)
+      if (own.bounds.near(other.bounds, gap_) && distance(own.corners, other.corners) < gap_)
+        return false;
+  return !is_inside(vertices[0], surface);
+}
+
+}    // namespace rbc

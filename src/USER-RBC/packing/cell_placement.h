@@ -1,0 +1,72 @@
+#pragma once
+
+#include "geometry/enclosure.h"
+#include "packing/rigid_cell.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace rbc {
+
+/// Draws places for rigid cells of one shape, at random in an enclosure, until they fit between
+/// what is there. Each draw has a number, and is the same whatever was drawn before.
+class CellPlacement {
+ public:
+  struct Place {
+    Vec3 centre;
+    Eigen::Matrix3d rotation;
+  };
+
+  /// A closed surface of any shape.
+  struct Surface {
+    std::vector<Vec3> vertices;
+    const std::vector<SurfaceTemplate::Corners> *triangles;
+  };
+
+  /// Cells keep `gap` from what is there.
+  CellPlacement(const SurfaceTemplate &cell, double gap, unsigned seed);
+
+  /// Vertices stay in an enclosure, which lies in that part of space.
+  void confine(const Enclosure &enclosure, const Vec3 &lo, const Vec3 &length);
+
+  // What is there.
+
+  void clear();
+  void avoid_surface(Surface surface);
+  void avoid_point(const Vec3 &point) { points_.push_back(point); }
+
+  /// A place at which a cell fits, if one of the next draws is such a place, up to `draws` of them.
+  /// A cell placed there is avoided from then on.
+  std::optional<Place> find(int draws);
+
+  /// Draws made so far.
+  std::int64_t drawn() const { return drawn_; }
+  void set_drawn(std::int64_t drawn) { drawn_ = drawn; }
+
+  /// Distance from a centre beyond which nothing is in the way of a cell.
+  double reach() const { return shape_.radius + gap_; }
+
+ private:
+  struct Placed {
+    Surface surface;
+    Vec3 centre;
+    double radius;    ///< of the sphere about it that holds the surface
+  };
+
+  RigidShape shape_;
+  double gap_;
+  unsigned seed_;
+  std::int64_t drawn_ = 0;
+  const Enclosure *enclosure_ = nullptr;
+  Vec3 lo_ = Vec3::Zero(), length_ = Vec3::Zero();
+  std::vector<Placed> placed_;
+  std::vector<Vec3> points_;
+
+  std::optional<RigidCell> draw(std::int64_t number) const;
+  bool fits(const RigidCell &cell) const;
+  bool is_clear(const RigidCell &cell, const std::vector<Vec3> &vertices,
+                const Surface &surface) const;
+};
+
+}    // namespace rbc
