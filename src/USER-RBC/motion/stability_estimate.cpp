@@ -94,8 +94,9 @@ void StabilityEstimate::estimate(Motion &motion, PointStore &store, int mode_vec
   suspected_ = false;
   if (!known) guess(motion, mode());
   radius_step_ = start.step;
-  if (root_mean_square(motion, mode()) == 0) {    // there are no points
+  if (root_mean_square(motion, mode()) == 0) {    // there are no points yet
     radius_ = 0;
+    radius_step_ = -1;
     return;
   }
 
