@@ -67,8 +67,19 @@ void ComputeRBCAggregate::init()
   cells.find(groupbit);
   near.reset();
   if (!find_seeing()) look_for_itself();
-  found_step = -1;
+  set_rows();
+}
 
+void ComputeRBCAggregate::cells_changed()
+{
+  cells.find_again(groupbit);
+  if (near) near->cells_changed();
+  set_rows();
+}
+
+void ComputeRBCAggregate::set_rows()
+{
+  found_step = -1;
   const int rows = rbc::AggregateSizes::class_count(cells.size());
   if (rows == size_array_rows && array) return;
   rows_lock.check(fmt::format("Compute rbc/aggregate {}: classes of size changed ({} before, {} "

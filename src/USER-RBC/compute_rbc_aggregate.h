@@ -7,6 +7,7 @@ ComputeStyle(rbc/aggregate,ComputeRBCAggregate);
 #ifndef LMP_COMPUTE_RBC_AGGREGATE_H
 #define LMP_COMPUTE_RBC_AGGREGATE_H
 
+#include "cells/rbc_cell_changes.h"
 #include "cells/rbc_group_cells.h"
 #include "cells/rbc_near_surfaces.h"
 #include "compute.h"
@@ -19,11 +20,12 @@ ComputeStyle(rbc/aggregate,ComputeRBCAggregate);
 
 namespace LAMMPS_NS {
 
-class ComputeRBCAggregate : public Compute {
+class ComputeRBCAggregate : public Compute, public CellWatcher {
  public:
   ComputeRBCAggregate(class LAMMPS *, int, char **);
   ~ComputeRBCAggregate() override;
   void init() override;
+  void cells_changed() override;
   void setup() override;
   void compute_vector() override;
   void compute_array() override;
@@ -49,6 +51,7 @@ class ComputeRBCAggregate : public Compute {
   bigint found_step = -1;
   int nmax = 0;
 
+  void set_rows();
   void find_aggregates();
   const class CellContact *find_seeing() const;
   void look_for_itself();

@@ -56,6 +56,18 @@ void ComputeRBCCell::init()
 {
   const std::vector<tagint> before = cells.molecules();
   cells.find(groupbit);
+  set_rows(before);
+}
+
+void ComputeRBCCell::cells_changed()
+{
+  const std::vector<tagint> before = cells.molecules();
+  cells.find_again(groupbit);
+  set_rows(before);
+}
+
+void ComputeRBCCell::set_rows(const std::vector<tagint> &before)
+{
   if (cells.molecules() != before)
     rows_lock.check(fmt::format("Compute rbc/cell {}: cells changed ({} before, {} now)", id,
                                 before.size(), cells.size()));

@@ -141,6 +141,11 @@ void FixRBCIB::set_arrays(int i)
   std::fill_n(store->astore[i], stored(), 0.0);
 }
 
+void FixRBCIB::cells_changed()
+{
+  steps->forget_velocities();
+}
+
 /* ---------------------------------------------------------------------- */
 
 int FixRBCIB::setmask()

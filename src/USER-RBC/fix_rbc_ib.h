@@ -7,6 +7,7 @@ FixStyle(rbc/ib,FixRBCIB);
 #ifndef LMP_FIX_RBC_IB_H
 #define LMP_FIX_RBC_IB_H
 
+#include "cells/rbc_cell_changes.h"
 #include "cells/rbc_cell_contact.h"
 #include "coupling/rbc_fluid_client.h"
 #include "coupling/rbc_gap_slip.h"
@@ -29,7 +30,8 @@ class FixRBCIB : public Fix,
                  public FluidClient,
                  public RunEnd,
                  public ContactReader,
-                 public RowExchange {
+                 public RowExchange,
+                 public CellWatcher {
  public:
   FixRBCIB(class LAMMPS *, int, char **);
   ~FixRBCIB() override;
@@ -47,6 +49,7 @@ class FixRBCIB : public Fix,
   void write_restart(FILE *) override;
   void restart(char *) override;
   void set_arrays(int) override;
+  void cells_changed() override;
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
   int pack_reverse_comm(int, int, double *) override;

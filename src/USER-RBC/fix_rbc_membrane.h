@@ -7,6 +7,7 @@ FixStyle(rbc/membrane,FixRBCMembrane);
 #ifndef LMP_FIX_RBC_MEMBRANE_H
 #define LMP_FIX_RBC_MEMBRANE_H
 
+#include "cells/rbc_cell_changes.h"
 #include "cells/rbc_cell_membranes.h"
 #include "fix.h"
 #include "support/rbc_arguments.h"
@@ -15,7 +16,7 @@ FixStyle(rbc/membrane,FixRBCMembrane);
 namespace LAMMPS_NS {
 
 /// Elastic and viscous forces of cells' membranes: arguments, checks, output and LAMMPS's hooks.
-class FixRBCMembrane : public Fix, public MembraneOwner {
+class FixRBCMembrane : public Fix, public MembraneOwner, public CellWatcher {
  public:
   FixRBCMembrane(class LAMMPS *, int, char **);
   int setmask() override;
@@ -32,6 +33,7 @@ class FixRBCMembrane : public Fix, public MembraneOwner {
   void restart(char *) override;
 
   CellMembranes &membranes() override { return cells; }
+  void cells_changed() override { cells.cells_changed(); }
 
  private:
   GhostCutoff ghosts;

@@ -98,6 +98,13 @@ void FixRBCVTK::init()
 
 /* ---------------------------------------------------------------------- */
 
+void FixRBCVTK::cells_changed()
+{
+  for (Source &source : sources) source = select(*source.membranes);
+}
+
+/* ---------------------------------------------------------------------- */
+
 FixRBCVTK::Source FixRBCVTK::select(CellMembranes &membranes)
 {
   const std::vector<tagint> &molecules = membranes.local_cells().molecules();

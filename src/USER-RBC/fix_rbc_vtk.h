@@ -7,6 +7,7 @@ FixStyle(rbc/vtk,FixRBCVTK);
 #ifndef LMP_FIX_RBC_VTK_H
 #define LMP_FIX_RBC_VTK_H
 
+#include "cells/rbc_cell_changes.h"
 #include "cells/rbc_cell_membranes.h"
 #include "fix.h"
 
@@ -19,11 +20,12 @@ class VtpWriter;
 
 namespace LAMMPS_NS {
 
-class FixRBCVTK : public Fix, public RunEnd {
+class FixRBCVTK : public Fix, public RunEnd, public CellWatcher {
  public:
   FixRBCVTK(class LAMMPS *, int, char **);
   int setmask() override;
   void init() override;
+  void cells_changed() override;
   void setup(int) override;
   void end_of_step() override;
   void write_failure(const std::string &) override;

@@ -64,13 +64,6 @@ void PairRBCJKR::allocate()
 
 /* ---------------------------------------------------------------------- */
 
-void PairRBCJKR::report_to(const std::shared_ptr<CollectiveStop> &stop)
-{
-  surfaces->report_to(stop);
-}
-
-/* ---------------------------------------------------------------------- */
-
 void PairRBCJKR::settings(int narg, char **arg)
 {
   given = read_contact_settings(lmp, narg, arg);
@@ -114,6 +107,11 @@ void PairRBCJKR::init_style()
   init_boundaries();
   range = 0;
   neighbor_calls = neighbor_step = seen_step = -1;
+}
+
+void PairRBCJKR::cells_changed()
+{
+  surfaces->cells_changed();
 }
 
 /* ----------------------------------------------------------------------

@@ -7,6 +7,7 @@ PairStyle(rbc/jkr,PairRBCJKR);
 #ifndef LMP_PAIR_RBC_JKR_H
 #define LMP_PAIR_RBC_JKR_H
 
+#include "cells/rbc_cell_changes.h"
 #include "cells/rbc_cell_contact.h"
 #include "cells/rbc_cell_crossings.h"
 #include "cells/rbc_contact_settings.h"
@@ -23,7 +24,7 @@ PairStyle(rbc/jkr,PairRBCJKR);
 
 namespace LAMMPS_NS {
 
-class PairRBCJKR : public Pair, public StepPart, public CellContact {
+class PairRBCJKR : public Pair, public StepPart, public CellContact, public CellWatcher {
  public:
   PairRBCJKR(class LAMMPS *);
   ~PairRBCJKR() override;
@@ -31,6 +32,7 @@ class PairRBCJKR : public Pair, public StepPart, public CellContact {
   void settings(int, char **) override;
   void coeff(int, char **) override;
   void init_style() override;
+  void cells_changed() override;
   double init_one(int, int) override;
   void setup() override;
   void finish() override { crossing->tell(); }

@@ -10,8 +10,15 @@
 
 using namespace LAMMPS_NS;
 
-// What pair rbc/jkr has to do with the fluid: the unit of its lengths, and the plates and walls
-// that repel cells.
+// What pair rbc/jkr has to do with the fluid: who ends its steps, the unit of its lengths, and the
+// plates and walls that repel cells.
+
+void PairRBCJKR::report_to(const std::shared_ptr<CollectiveStop> &stop)
+{
+  surfaces->report_to(stop);
+}
+
+/* ---------------------------------------------------------------------- */
 
 static const DrivenFlow *find_flow(Modify *modify)
 {

@@ -50,6 +50,9 @@ class CellMembranes : public StepPart, protected Pointers {
   /// report_to() is called afterwards.
   void start_run();
 
+  /// Collective, within a run: cells were added or removed.
+  void cells_changed() { cells_.identify_again(); }
+
   /// Collective, after atoms migrated.
   void update_ownership();
 

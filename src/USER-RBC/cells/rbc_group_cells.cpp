@@ -12,9 +12,15 @@ void GroupCells::find(int groupbit)
   members = all_cell_membranes(lmp);
   if (members.empty()) error->all(FLERR, "{} needs a fix rbc/membrane: it knows the cells", owner);
 
+  for (CellMembranes *membranes : members)
+    membranes->local_cells().identify();    // the fix itself may be initialised later
+  collect(groupbit);
+}
+
+void GroupCells::collect(int groupbit)
+{
   ids.clear();
   for (CellMembranes *membranes : members) {
-    membranes->local_cells().identify();    // the fix itself may be initialised later
     const auto &molecules = membranes->local_cells().molecules();
     ids.insert(ids.end(), molecules.begin(), molecules.end());
   }

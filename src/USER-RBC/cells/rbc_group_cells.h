@@ -20,6 +20,9 @@ class GroupCells : protected Pointers {
   /// Collective: finds the cells at the start of a run.
   void find(int groupbit);
 
+  /// The same within a run, once the membranes know of cells that were added or removed.
+  void find_again(int groupbit) { collect(groupbit); }
+
   const std::vector<CellMembranes *> &membranes() const { return members; }
   const std::vector<tagint> &molecules() const { return ids; }
   int size() const { return static_cast<int>(ids.size()); }
@@ -31,6 +34,8 @@ class GroupCells : protected Pointers {
   std::string owner;
   std::vector<CellMembranes *> members;
   std::vector<tagint> ids;
+
+  void collect(int groupbit);
 };
 
 }    // namespace LAMMPS_NS

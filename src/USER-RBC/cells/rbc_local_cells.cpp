@@ -1,6 +1,7 @@
 #include "cells/rbc_local_cells.h"
 
 #include "atom.h"
+#include "cells/rbc_cell_changes.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -24,12 +25,17 @@ LocalCells::LocalCells(LAMMPS *lmp, const rbc::SurfaceTemplate &shape, int group
 
 void LocalCells::identify()
 {
+  identify_again();
+  starts_run = true;
+}
+
+void LocalCells::identify_again()
+{
   if (!atom->molecule_flag || !atom->tag_enable)
     error->all(FLERR, "{} requires atoms with IDs and molecule IDs", style);
   if (atom->map_style == Atom::MAP_NONE)
     error->all(FLERR, "{} requires an atom map, see atom_modify", style);
 
-  starts_run = true;
   molecule_ids.clear();
   first_ids.clear();
   index_of.clear();
@@ -48,7 +54,7 @@ void LocalCells::identify()
     molecule_ids.push_back(cell.molecule);
     first_ids.push_back(cell.first);
   }
-  if (molecule_ids.empty())
+  if (molecule_ids.empty() && !is_fed(lmp, groupbit))
     error->all(FLERR, "{}: its group has no atoms; define the group after the cells are made",
                style);
 }

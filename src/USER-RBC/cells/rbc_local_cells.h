@@ -38,8 +38,11 @@ class LocalCells : protected Pointers {
 
   LocalCells(LAMMPS *lmp, const rbc::SurfaceTemplate &shape, int groupbit, std::string style);
 
-  /// Collective: finds the group's cells and checks that each is whole.
+  /// Collective, at the start of a run: finds the group's cells and checks that each is whole.
   void identify();
+
+  /// The same within a run, after cells were added or removed: image flags are right.
+  void identify_again();
 
   /// Collective, after atoms migrated: finds which vertices this rank holds. With `bending` the
   /// forces on a vertex reach its neighbors' neighbors.

@@ -61,20 +61,30 @@ void NearSurfaces::init()
     shapes.push_back({&surface, std::move(triangles_by_first_vertex), {}, {}});
     find_fans(shapes.back());
     if (own_patch > 0) find_own_patches(shapes.back());
-
-    const auto &molecules = membranes->local_cells().molecules();
-    const auto &first = membranes->local_cells().first_atoms();
-    for (std::size_t n = 0; n < molecules.size(); ++n)
-      if (!cells
-               .insert({molecules[n],
-                        {static_cast<int>(shapes.size()) - 1, first[n],
-                         static_cast<rbc::NearTriangles::Surface>(cells.size())}})
-               .second)
-        error->all(FLERR, "{}: molecule ID {} belongs to two fixes rbc/membrane", style,
-                   molecules[n]);
+    add_cells(*membranes, static_cast<int>(shapes.size()) - 1);
   }
   if (shapes.empty())
     error->all(FLERR, "{} needs a fix rbc/membrane: it knows the cells and their triangles", style);
+}
+
+void NearSurfaces::cells_changed()
+{
+  cells.clear();
+  int shape = 0;
+  for (CellMembranes *membranes : all_cell_membranes(lmp)) add_cells(*membranes, shape++);
+}
+
+void NearSurfaces::add_cells(CellMembranes &membranes, int shape)
+{
+  const auto &molecules = membranes.local_cells().molecules();
+  const auto &first = membranes.local_cells().first_atoms();
+  for (std::size_t n = 0; n < molecules.size(); ++n)
+    if (!cells
+             .insert({molecules[n],
+                      {shape, first[n], static_cast<rbc::NearTriangles::Surface>(cells.size())}})
+             .second)
+      error->all(FLERR, "{}: molecule ID {} belongs to two fixes rbc/membrane", style,
+                 molecules[n]);
 }
 
 void NearSurfaces::find_fans(Shape &shape) const

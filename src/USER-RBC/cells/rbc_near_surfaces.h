@@ -16,6 +16,8 @@
 
 namespace LAMMPS_NS {
 
+class CellMembranes;
+
 /// The vertices that this rank owns and the surfaces of cells near them, of all fixes rbc/membrane.
 class NearSurfaces : protected Pointers {
  public:
@@ -31,6 +33,10 @@ class NearSurfaces : protected Pointers {
 
   /// Collective, at the start of a run: finds the cells.
   void init();
+
+  /// Collective, within a run, once the membranes know of cells that were added or removed. Call
+  /// build() next.
+  void cells_changed();
 
   /// Largest length of an edge that is allowed: 1.5 times that of the longest edge of the cells at
   /// rest.
@@ -125,6 +131,7 @@ class NearSurfaces : protected Pointers {
   const Cell *cell_of(int i) const;
   double longest_known_edge(double range, double slack) const;
   void collect_triangles(double longest);
+  void add_cells(CellMembranes &membranes, int shape);
   void find_fans(Shape &shape) const;
   void find_own_patches(Shape &shape) const;
   int image_near(int i, tagint id, double longest) const;

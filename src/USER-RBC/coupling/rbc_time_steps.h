@@ -49,6 +49,9 @@ class TimeSteps : protected Pointers {
   /// computed there. With fluid inertia they stay those of the middle of the step.
   void finish();
 
+  /// The velocities at the end of the step, where advance() knows them, are of other atoms.
+  void forget_velocities() { velocities_known_ = false; }
+
   double local_error() const { return local_error_; }
   bigint rejected() const { return rejected_; }
   bigint failed() const { return failed_; }    ///< of these: went wrong altogether

@@ -12,8 +12,8 @@ using namespace LAMMPS_NS;
 
 /* ---------------------------------------------------------------------- */
 
-NewAtoms::NewAtoms(LAMMPS *lmp, const std::string &style, bigint count) :
-    Pointers(lmp), before_(atom->nlocal)
+NewAtoms::NewAtoms(LAMMPS *lmp, const std::string &style, bigint count, tagint above) :
+    Pointers(lmp), last_(above), before_(atom->nlocal)
 {
   for (int i = 0; i < atom->nlocal; ++i) last_ = std::max(last_, atom->tag[i]);
   MPI_Allreduce(MPI_IN_PLACE, &last_, 1, MPI_LMP_TAGINT, MPI_MAX, world);

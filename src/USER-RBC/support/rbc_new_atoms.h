@@ -9,11 +9,11 @@
 namespace LAMMPS_NS {
 
 /// Atoms made at places that all tasks know, in the same order on all; each task makes those that
-/// it owns. Their IDs follow those of the atoms that are there.
+/// it owns. Their IDs follow those of the atoms that are there, and are above a given one.
 class NewAtoms : protected Pointers {
  public:
   /// Collective. `style` is named in the error if there are no IDs for `count` atoms.
-  NewAtoms(LAMMPS *lmp, const std::string &style, bigint count);
+  NewAtoms(LAMMPS *lmp, const std::string &style, bigint count, tagint above = 0);
 
   struct Made {
     int index;    ///< -1: another task's
@@ -30,7 +30,7 @@ class NewAtoms : protected Pointers {
   void set_missing_mass(int type);
 
  private:
-  tagint last_ = 0;
+  tagint last_;
   int before_;
 };
 
