@@ -6,6 +6,7 @@
 #include "fix_rbc_ib.h"
 #include "fix_rbc_membrane.h"
 #include "fix_rbc_port.h"
+#include "fix_rbc_stream.h"
 #include "fix_rbc_vtk.h"
 #include "fix_rbc_wall.h"
 #include "pair_rbc_jkr.h"

@@ -1,0 +1,95 @@
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(rbc/stream,FixRBCStream);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_RBC_STREAM_H
+#define LMP_FIX_RBC_STREAM_H
+
+#include "cells/rbc_cell_changes.h"
+#include "cells/rbc_region_enclosure.h"
+#include "fix.h"
+#include "lmptype.h"
+#include "packing/cell_placement.h"
+#include "packing/stream_ledger.h"
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+
+/// Cells that enter a vessel behind a port and leave it before others: arguments, checks, output
+/// and LAMMPS's hooks.
+class FixRBCStream : public Fix, public CellSource {
+ public:
+  FixRBCStream(class LAMMPS *, int, char **);
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void post_integrate() override;
+  void pre_exchange() override;
+  void end_of_step() override;
+  void post_run() override;
+  double compute_vector(int) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+
+  int fed_groupbit() const override { return groupbit; }
+
+ private:
+  struct Outlet {
+    std::string port, region;
+  };
+  struct Leaver {
+    tagint molecule;
+    int outlet;
+  };
+
+  std::string style;    // and ID, for messages
+  std::string port, region;
+  std::vector<Outlet> outlets;
+  double hematocrit = 0, gap = -1;
+  int seed = 0, cell_type = 1, attempts = 100, every = 1;
+  std::unique_ptr<rbc::SurfaceTemplate> shape;    // of new cells
+
+  std::optional<rbc::StreamLedger> ledger;
+  std::optional<rbc::CellPlacement> placement;
+  std::optional<RegionEnclosure> feed;    // where they appear
+  rbc::Vec3 feed_lo, feed_length;
+  double room = 0;                            // cells of this hematocrit in it
+  tagint last_atom = 0, last_molecule = 0;    // highest IDs there have been
+  bool warned = false;
+
+  class CellMembranes *membranes = nullptr;    // of the group's cells
+  std::vector<Leaver> leavers;                 // of this step, as are the places of new cells
+  std::vector<rbc::CellPlacement::Place> arrivals;
+
+  void parse(int, char **);
+  void check_ports();
+  void find_membranes();
+  void check_moved() const;
+  void find_feed();
+  class FixRBCPort *find_port(const std::string &) const;
+  double rate_through(const std::string &) const;
+  std::vector<double> rates_out() const;
+
+  std::vector<Leaver> find_leavers() const;
+  void collect_obstacles();
+  void add_surfaces(CellMembranes &);
+  void add_points();
+  rbc::Vec3 near_feed(const rbc::Vec3 &) const;
+  std::vector<rbc::CellPlacement::Place> find_places();
+  void warn_of_delay();
+  void note_ids();
+  void remove_leavers();
+  void add_arrivals();
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif
