@@ -98,13 +98,26 @@ template <class Load, class Store> void TractionFilter::filter_whole_cells(Load 
 {
   for (const Kind &kind : kinds_) {
     const int vertices = kind.filter.vertex_count();
-    cell_.resize(vertices);
+    const auto &cells = kind.membranes->local_cells().cells();
+    cells_.resize(vertices);
     scratch_.resize(vertices);
-    for (const LocalCells::Cell &cell : kind.membranes->local_cells().cells()) {
-      if (cell.shared) continue;
-      for (int v = 0; v < vertices; ++v) cell_[v] = load(kind, v, cell.atom[v]);
-      kind.filter.apply(cell_, scratch_);
-      for (int v = 0; v < vertices; ++v) store(kind, v, cell.atom[v], cell_[v]);
+    const auto next_whole = [&](std::size_t c) {
+      while (c < cells.size() && cells[c].shared) ++c;
+      return c;
+    };
+    for (std::size_t one = next_whole(0); one < cells.size();) {
+      const std::size_t other = next_whole(one + 1);
+      for (int v = 0; v < vertices; ++v) {
+        cells_[v].head<4>() = load(kind, v, cells[one].atom[v]);
+        cells_[v].tail<4>() =
+            other < cells.size() ? load(kind, v, cells[other].atom[v]) : Row(Row::Zero());
+      }
+      kind.filter.apply(cells_, scratch_);
+      for (int v = 0; v < vertices; ++v) {
+        store(kind, v, cells[one].atom[v], cells_[v].head<4>());
+        if (other < cells.size()) store(kind, v, cells[other].atom[v], cells_[v].tail<4>());
+      }
+      one = next_whole(other + 1);
     }
   }
 }
@@ -217,7 +230,7 @@ void TractionFilter::smooth_velocities(double *velocity)
 std::size_t TractionFilter::bytes() const
 {
   std::size_t bytes = force_.bytes() + rough_.bytes() + smooth_.bytes() + next_.bytes() +
-                      (cell_.capacity() + scratch_.capacity()) * sizeof(Row);
+                      (cells_.capacity() + scratch_.capacity()) * sizeof(TwoRows);
   for (const Kind &kind : kinds_)
     bytes += kind.filter.bytes() + (kind.kept.capacity() + kind.lost.capacity()) * sizeof(double);
   return bytes;

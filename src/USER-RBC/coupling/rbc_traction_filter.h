@@ -51,6 +51,8 @@ class TractionFilter : public StepPart, protected Pointers {
 
  private:
   using Row = rbc::SurfaceFilter::Row;
+  /// Of two cells, which are filtered together: three values of each, the others are padding.
+  using TwoRows = Eigen::Array<double, 8, 1>;
 
   /// The cells of one fix rbc/membrane.
   struct Kind {
@@ -64,7 +66,7 @@ class TractionFilter : public StepPart, protected Pointers {
   AtomRows force_;
   AtomRows rough_;            ///< tractions
   AtomRows smooth_, next_;    ///< what is filtered, before and after a pass
-  std::vector<Row> cell_, scratch_;
+  std::vector<TwoRows> cells_, scratch_;
   double slip_ = 0;    ///< SLIP dx / viscosity
   rbc::Stopwatch stopwatch_;
 

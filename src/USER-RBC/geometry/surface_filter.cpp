@@ -40,31 +40,4 @@ void SurfaceFilter::find_linear_modes(const SurfaceTemplate &surface)
   }
 }
 
-/* ---------------------------------------------------------------------- */
-
-void SurfaceFilter::apply(std::vector<Row> &values, std::vector<Row> &scratch) const
-{
-  const Linear kept = take_linear(values);
-  for (int number = 0; number < passes(); ++number) {
-    const auto value = [&values](int w) -> Row { return values[w]; };
-    for (int v = 0; v < vertex_count(); ++v) scratch[v] = pass(number, v, value);
-    values.swap(scratch);
-  }
-  take_linear(values);
-  for (int v = 0; v < vertex_count(); ++v)
-    for (int mode = 0; mode < modes; ++mode) values[v] += linear_[v][mode] * kept[mode];
-}
-
-/// Takes from values their linear part, and returns it.
-SurfaceFilter::Linear SurfaceFilter::take_linear(std::vector<Row> &values) const
-{
-  Linear parts;
-  for (Row &part : parts) part.setZero();
-  for (int v = 0; v < vertex_count(); ++v)
-    for (int mode = 0; mode < modes; ++mode) parts[mode] += area_[v] * linear_[v][mode] * values[v];
-  for (int v = 0; v < vertex_count(); ++v)
-    for (int mode = 0; mode < modes; ++mode) values[v] -= linear_[v][mode] * parts[mode];
-  return parts;
-}
-
 }    // namespace rbc

@@ -25,8 +25,21 @@ class SurfaceFilter {
 
   int vertex_count() const { return laplacian_.vertex_count(); }
 
-  /// Filters the values at all vertices; `scratch` has as many rows.
-  void apply(std::vector<Row> &values, std::vector<Row> &scratch) const;
+  /// Filters the values at all vertices; `scratch` has as many rows. A row may be of any number of
+  /// functions, those of several surfaces, too.
+  template <class Row> void apply(std::vector<Row> &values, std::vector<Row> &scratch) const
+  {
+    const Linear<Row> kept = linear_part(values);
+    take_linear(kept, values);
+    for (int number = 0; number < passes(); ++number) {
+      const auto value = [&values](int w) -> const Row & { return values[w]; };
+      for (int v = 0; v < vertex_count(); ++v) scratch[v] = pass(number, v, value);
+      values.swap(scratch);
+    }
+    Linear<Row> change = linear_part(values);
+    for (int mode = 0; mode < modes; ++mode) change[mode] -= kept[mode];
+    take_linear(change, values);
+  }
 
   // the same in steps, for surfaces that several ranks share
 
@@ -42,10 +55,13 @@ class SurfaceFilter {
   int passes() const { return degree_ + 1; }
 
   /// Value at vertex v after this pass, from value(w) at all vertices w before it.
-  template <class Value> Row pass(int number, int v, const Value &value) const
+  template <class Value> auto pass(int number, int v, const Value &value) const
   {
     const double share = (number < degree_ ? 1.0 : -degree_) / laplacian_.largest();
-    return value(v) + share * laplacian_.at(v, value);
+    auto change = laplacian_.at(v, value);
+    change *= share;
+    change += value(v);
+    return change;
   }
 
   std::size_t bytes() const
@@ -55,7 +71,7 @@ class SurfaceFilter {
   }
 
  private:
-  using Linear = std::array<Row, modes>;
+  template <class Row> using Linear = std::array<Row, modes>;
 
   MeshLaplacian laplacian_;
   int degree_;    ///< n
@@ -63,7 +79,22 @@ class SurfaceFilter {
   std::vector<double> area_;
 
   void find_linear_modes(const SurfaceTemplate &surface);
-  Linear take_linear(std::vector<Row> &values) const;
+
+  template <class Row> Linear<Row> linear_part(const std::vector<Row> &values) const
+  {
+    Linear<Row> parts;
+    for (Row &part : parts) part.setZero();
+    for (int v = 0; v < vertex_count(); ++v)
+      for (int mode = 0; mode < modes; ++mode)
+        parts[mode] += (area_[v] * linear_[v][mode]) * values[v];
+    return parts;
+  }
+
+  template <class Row> void take_linear(const Linear<Row> &parts, std::vector<Row> &values) const
+  {
+    for (int v = 0; v < vertex_count(); ++v)
+      for (int mode = 0; mode < modes; ++mode) values[v] -= linear_[v][mode] * parts[mode];
+  }
 };
 
 }    // namespace rbc
