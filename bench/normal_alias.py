@@ -4,8 +4,8 @@
 A plane that bears an even force along its normal n has forces of all wave vectors k n. The grid
 takes those beyond its reach for waves of other directions, k n + 2 pi m, which flow does not
 balance by pressure. Their flow is what kernels see of it: velocity over force per area, spacing
-over viscosity, in the mean over all places of the plane. Prints it for some directions, and the factor
-of fluid/normal_alias.cpp, a fit for all directions.
+over viscosity, in the mean over all places of the plane. Prints it for some directions, and the
+factor of fluid/normal_alias.cpp, a fit for all directions.
 """
 import sys
 from pathlib import Path
@@ -33,7 +33,7 @@ def roma3(r):
     return np.where(r < 0.5, near, np.where(r < 1.5, far, 0))
 
 
-KERNELS = {"peskin4": (peskin4, 0.524, 0.655), "roma3": (roma3, 0.30, 0.2065)}    # corrections of sheets
+KERNELS = {"peskin4": (peskin4, 0.524, 0.655), "roma3": (roma3, 0.30, 0.2065)}    # as sheets
 
 
 def transform(kernel):
