@@ -21,7 +21,7 @@ static constexpr double STRETCH = 1.5;
 // Part of the slack within which the finder lists triangles. Its lists are much shorter than those
 // for the whole slack; it makes them anew when atoms have moved that far.
 
-static constexpr double FINER = 0.3;
+static constexpr double FINER = 0.15;
 
 namespace {
 
