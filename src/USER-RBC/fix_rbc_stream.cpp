@@ -2,6 +2,7 @@
 
 #include "cells/rbc_cell_membranes.h"
 #include "cells/rbc_cell_template.h"
+#include "cells/rbc_whole_cells.h"
 #include "comm.h"
 #include "coupling/rbc_flow_inside.h"
 #include "domain.h"
@@ -14,6 +15,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <tuple>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -64,7 +66,8 @@ void FixRBCStream::parse(int narg, char **arg)
              {"type", [&] { cell_type = args.atom_type(); }},
              {"overlap", [&] { gap = args.positive(); }},
              {"attempts", [&] { attempts = args.whole(1, MAXSMALLINT); }},
-             {"every", [&] { every = args.whole(1, MAXSMALLINT); }}});
+             {"every", [&] { every = args.whole(1, MAXSMALLINT); }},
+             {"periodic", [&] { read_direction(args); }}});
   const std::pair<const char *, bool> needed[] = {{"region", !region.empty()},
                                                   {"hematocrit", hematocrit > 0},
                                                   {"molecule", !molecule.empty()},
@@ -75,6 +78,15 @@ void FixRBCStream::parse(int narg, char **arg)
     error->all(FLERR, "{} cannot use group all: give it the group of a fix rbc/membrane", style);
   shape = make_cell_template(lmp, molecule, "fix rbc/stream molecule");
   if (gap < 0) gap = shape->mean_edge / 10;
+}
+
+void FixRBCStream::read_direction(Arguments &args)
+{
+  using Direction = std::pair<int, bool>;
+  const Arguments::Choices<Direction> directions = {{"x", {0, true}},   {"y", {1, true}},
+                                                    {"z", {2, true}},   {"-x", {0, false}},
+                                                    {"-y", {1, false}}, {"-z", {2, false}}};
+  std::tie(along, upwards) = args.choice<Direction>(directions);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -182,6 +194,10 @@ void FixRBCStream::find_feed()
     error->all(FLERR, "Region {} for {} holds nothing of the simulation box", region, use);
   room = hematocrit * volume / membranes->shape().volume;
   placement->confine(*feed, feed_lo, feed_length);
+  if (along < 0) return;
+  const std::vector<double> state = stretch ? stretch->state() : remembered;
+  stretch.emplace(feed_length[along], placement->reach());
+  stretch->restore(state);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -189,6 +205,8 @@ void FixRBCStream::find_feed()
 void FixRBCStream::setup(int /*vflag*/)
 {
   ledger->start(rate_through(port), rates_out());
+  if (stretch)
+    follow(centres_on_first(lmp, membranes->local_cells(), membranes->shape().vertex_count()));
 }
 
 void FixRBCStream::end_of_step()
@@ -245,9 +263,13 @@ double FixRBCStream::compute_vector(int n)
 void FixRBCStream::write_restart(FILE *fp)
 {
   if (comm->me != 0) return;
-  std::vector<double> state = ledger->state();
-  state.insert(state.begin(), {0, static_cast<double>(placement->drawn()),
-                               static_cast<double>(last_atom), static_cast<double>(last_molecule)});
+  const std::vector<double> account = ledger->state();
+  std::vector<double> state{0, static_cast<double>(placement->drawn()),
+                            static_cast<double>(last_atom), static_cast<double>(last_molecule),
+                            static_cast<double>(account.size())};
+  state.insert(state.end(), account.begin(), account.end());
+  const std::vector<double> loop = stretch ? stretch->state() : remembered;
+  state.insert(state.end(), loop.begin(), loop.end());
   state[0] = static_cast<double>(state.size());
   const int size = static_cast<int>(state.size() * sizeof(double));
   fwrite(&size, sizeof(int), 1, fp);
@@ -256,12 +278,14 @@ void FixRBCStream::write_restart(FILE *fp)
 
 void FixRBCStream::restart(char *buffer)
 {
-  constexpr int head = 4;
+  constexpr int head = 5;
   const auto numbers = reinterpret_cast<const double *>(buffer);
   placement->set_drawn(static_cast<std::int64_t>(numbers[1]));
   last_atom = static_cast<tagint>(numbers[2]);
   last_molecule = static_cast<tagint>(numbers[3]);
-  if (!ledger->restore({numbers + head, numbers + static_cast<std::size_t>(numbers[0])}))
+  const double *const loop = numbers + head + static_cast<std::size_t>(numbers[4]);
+  remembered.assign(loop, numbers + static_cast<std::size_t>(numbers[0]));
+  if (!ledger->restore({numbers + head, loop}))
     error->all(FLERR, "{}: the restart file is of one with another number of outlets than {}",
                style, outlets.size());
 }

@@ -12,9 +12,11 @@ FixStyle(rbc/stream,FixRBCStream);
 #include "fix.h"
 #include "lmptype.h"
 #include "packing/cell_placement.h"
+#include "packing/periodic_stretch.h"
 #include "packing/stream_ledger.h"
 
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -54,19 +56,24 @@ class FixRBCStream : public Fix, public CellSource {
   std::vector<Outlet> outlets;
   double hematocrit = 0, gap = -1;
   int seed = 0, cell_type = 1, attempts = 100, every = 1;
+  int along = -1;         // dimension along which the region is periodic, -1: it is not
+  bool upwards = true;    // whether the stream goes in its direction
   std::unique_ptr<rbc::SurfaceTemplate> shape;    // of new cells
 
   std::optional<rbc::StreamLedger> ledger;
   std::optional<rbc::CellPlacement> placement;
-  std::optional<RegionEnclosure> feed;    // where they appear
+  std::optional<rbc::PeriodicStretch> stretch;    // known to rank 0
+  std::vector<double> remembered;                 // of it, from a restart file
+  std::optional<RegionEnclosure> feed;            // where they appear
   rbc::Vec3 feed_lo, feed_length;
   double room = 0;                            // cells of this hematocrit in it
   tagint last_atom = 0, last_molecule = 0;    // highest IDs there have been
   bool warned = false;
+  std::map<tagint, std::vector<rbc::Vec3>> waiting;    // vertices of cells to be copied, on rank 0
 
-  class CellMembranes *membranes = nullptr;    // of the group's cells
-  std::vector<Leaver> leavers;                 // of this step, as are the places of new cells
-  std::vector<rbc::CellPlacement::Place> arrivals;
+  class CellMembranes *membranes = nullptr;        // of the group's cells
+  std::vector<Leaver> leavers;                     // of this step
+  std::vector<std::vector<rbc::Vec3>> arrivals;    // vertices of new cells
 
   void parse(int, char **);
   void check_ports();
@@ -77,12 +84,20 @@ class FixRBCStream : public Fix, public CellSource {
   double rate_through(const std::string &) const;
   std::vector<double> rates_out() const;
 
-  std::vector<Leaver> find_leavers() const;
+  void read_direction(class Arguments &);
+  std::vector<Leaver> find_leavers(const std::vector<rbc::Vec3> &centres) const;
+  void follow(const std::vector<rbc::Vec3> &centres);
+  double late() const;
+  bool is_due() const;
   void collect_obstacles();
   void add_surfaces(CellMembranes &);
   void add_points();
   rbc::Vec3 near_feed(const rbc::Vec3 &) const;
-  std::vector<rbc::CellPlacement::Place> find_places();
+  std::vector<std::vector<rbc::Vec3>> find_arrivals();
+  void add_copies(std::vector<std::vector<rbc::Vec3>> &found);
+  bool add_copy(const std::vector<rbc::Vec3> &original, std::vector<std::vector<rbc::Vec3>> &found);
+  void add_random(std::vector<std::vector<rbc::Vec3>> &found);
+  void share(std::vector<std::vector<rbc::Vec3>> &found) const;
   void warn_of_delay();
   void note_ids();
   void remove_leavers();

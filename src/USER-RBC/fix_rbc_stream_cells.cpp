@@ -6,8 +6,10 @@
 #include "comm.h"
 #include "coupling/rbc_flow_inside.h"
 #include "domain.h"
+#include "dump.h"
 #include "error.h"
 #include "fix_rbc_port.h"
+#include "output.h"
 #include "support/rbc_gather.h"
 #include "support/rbc_new_atoms.h"
 #include "support/rbc_removed_atoms.h"
@@ -26,6 +28,15 @@ using rbc::Vec3;
 
 static constexpr double LONG_DELAY = 0.5, LEAST_DELAY = 3;
 
+// With a periodic stretch copies may be ahead by about a cell, and those drawn at random come where
+// as much is owed, so that there are few of both.
+
+static constexpr double AHEAD = 1, BEHIND = 1.5;
+
+// places that are tried for a copy along about half a diameter
+
+static constexpr int LATER = 20;
+
 /* ----------------------------------------------------------------------
    Positions are those of the end of the step. Where cells change, neighbors are found anew.
 ------------------------------------------------------------------------- */
@@ -35,38 +46,85 @@ void FixRBCStream::post_integrate()
   leavers.clear();
   arrivals.clear();
   if (update->ntimestep % every != 0) return;
-  leavers = find_leavers();
-  if (ledger->due() > 0) arrivals = find_places();
+  std::vector<Vec3> centres;
+  if (stretch || !outlets.empty())
+    centres = centres_on_first(lmp, membranes->local_cells(), shape->vertex_count());
+  leavers = find_leavers(centres);
+  if (stretch) follow(centres);
+  if (is_due()) arrivals = find_arrivals();
   if (!leavers.empty() || !arrivals.empty()) next_reneighbor = update->ntimestep;
 }
+
+/* ----------------------------------------------------------------------
+   Dumps take IDs that are consecutive at the start of a run for consecutive to its end, and write
+   beyond their memory where as many others are there.
+------------------------------------------------------------------------- */
 
 void FixRBCStream::pre_exchange()
 {
   if (next_reneighbor != update->ntimestep) return;
+  const bool consecutive = atom->tag_consecutive() != 0;
   note_ids();
   if (!leavers.empty()) remove_leavers();
   if (!arrivals.empty()) add_arrivals();
   tell_of_changed_cells(lmp);
+  if (!consecutive) return;
+  for (Dump *dump : output->get_dump_list()) dump->init();
 }
 
 /* ----------------------------------------------------------------------
    cells whose centre lies in the region of an outlet
 ------------------------------------------------------------------------- */
 
-std::vector<FixRBCStream::Leaver> FixRBCStream::find_leavers() const
+std::vector<FixRBCStream::Leaver> FixRBCStream::find_leavers(const std::vector<Vec3> &centres) const
 {
   std::vector<Leaver> found;
   if (outlets.empty()) return found;
-  const LocalCells &cells = membranes->local_cells();
-  const std::vector<Vec3> centres = centres_on_first(lmp, cells, shape->vertex_count());
+  const std::vector<tagint> &molecules = membranes->local_cells().molecules();
   for (std::size_t c = 0; c < centres.size(); ++c)
     for (std::size_t n = 0; n < outlets.size(); ++n) {
       const RegionEnclosure end(domain->get_region_by_id(outlets[n].region), domain);
       if (!end.contains(centres[c])) continue;
-      found.push_back({cells.molecules()[c], static_cast<int>(n)});
+      found.push_back({molecules[c], static_cast<int>(n)});
       break;
     }
   return gather_all(found, world);    // those of rank 0
+}
+
+/* ----------------------------------------------------------------------
+   where cells are along the periodic stretch, on rank 0
+------------------------------------------------------------------------- */
+
+void FixRBCStream::follow(const std::vector<Vec3> &centres)
+{
+  const std::vector<tagint> &molecules = membranes->local_cells().molecules();
+  std::vector<rbc::PeriodicStretch::Cell> cells;
+  for (std::size_t c = 0; c < centres.size(); ++c) {
+    const Vec3 from = near_feed(centres[c]) - feed_lo;
+    bool beside = false;
+    for (int d = 0; d < 3; ++d)
+      if (d != along) beside = beside || from[d] < 0 || from[d] > feed_length[d];
+    cells.push_back(
+        {molecules[c], upwards ? from[along] : feed_length[along] - from[along], beside});
+  }
+  stretch->follow(cells);
+}
+
+/* ----------------------------------------------------------------------
+   how many cells are owed when one is drawn at random; whether there is something to do
+------------------------------------------------------------------------- */
+
+double FixRBCStream::late() const
+{
+  return stretch ? BEHIND : 0.5;
+}
+
+bool FixRBCStream::is_due() const
+{
+  if (!stretch) return ledger->owed() >= late();
+  int due = ledger->owed() >= late() || !stretch->waiting().empty();
+  MPI_Bcast(&due, 1, MPI_INT, 0, world);
+  return due != 0;
 }
 
 /* ----------------------------------------------------------------------
@@ -85,6 +143,7 @@ Vec3 FixRBCStream::near_feed(const Vec3 &x) const
 void FixRBCStream::collect_obstacles()
 {
   placement->clear();
+  waiting.clear();
   for (CellMembranes *cells : all_cell_membranes(lmp)) add_surfaces(*cells);
   add_points();
 }
@@ -103,12 +162,18 @@ void FixRBCStream::add_surfaces(CellMembranes &others)
     const Vec3 from = near_feed(centres[c]) - feed_lo;
     wanted[c] = ((from.array() > -reach) && (from.array() < feed_length.array() + reach)).all();
   }
-  auto surfaces = vertices_on_first(lmp, others.local_cells(), size, std::move(wanted));
-  for (std::vector<Vec3> &vertices : surfaces) {
-    Vec3 centre = Vec3::Zero();
-    for (const Vec3 &vertex : vertices) centre += vertex / size;
-    const Vec3 shift = near_feed(centre) - centre;
+  auto surfaces = vertices_on_first(lmp, others.local_cells(), size, wanted);
+  auto next = surfaces.begin();
+  for (std::size_t c = 0; c < centres.size(); ++c) {
+    if (!wanted[c]) continue;
+    std::vector<Vec3> &vertices = *next++;
+    const Vec3 shift = near_feed(centres[c]) - centres[c];
     for (Vec3 &vertex : vertices) vertex += shift;
+    if (stretch && &others == membranes) {
+      const auto &ids = stretch->waiting();
+      const tagint molecule = others.local_cells().molecules()[c];
+      if (std::find(ids.begin(), ids.end(), molecule) != ids.end()) waiting[molecule] = vertices;
+    }
     placement->avoid_surface({std::move(vertices), &others.shape().triangles});
   }
 }
@@ -136,30 +201,88 @@ void FixRBCStream::add_points()
    for as many of the cells that are due as there is room for
 ------------------------------------------------------------------------- */
 
-std::vector<rbc::CellPlacement::Place> FixRBCStream::find_places()
+std::vector<std::vector<Vec3>> FixRBCStream::find_arrivals()
 {
   collect_obstacles();
-  std::vector<rbc::CellPlacement::Place> found;
-  for (int n = ledger->due(); n > 0 && comm->me == 0; --n) {
-    const auto place = placement->find(attempts);
-    if (!place) break;
-    found.push_back(*place);
+  std::vector<std::vector<Vec3>> found;
+  if (comm->me == 0) {
+    if (stretch) add_copies(found);
+    add_random(found);
   }
   auto drawn = static_cast<bigint>(placement->drawn());
   MPI_Bcast(&drawn, 1, MPI_LMP_BIGINT, 0, world);
   placement->set_drawn(drawn);
-  std::vector<double> numbers;
-  for (const auto &place : found) {
-    numbers.insert(numbers.end(), place.centre.data(), place.centre.data() + 3);
-    numbers.insert(numbers.end(), place.rotation.data(), place.rotation.data() + 9);
-  }
-  numbers = gather_all(numbers, world);    // those of rank 0
-  found.clear();
-  for (std::size_t n = 0; n < numbers.size(); n += 12)
-    found.push_back({Vec3(&numbers[n]), Eigen::Matrix3d(&numbers[n + 3])});
+  share(found);
   if (found.empty()) warn_of_delay();
   return found;
 }
+
+/* ----------------------------------------------------------------------
+   of cells that have left the periodic stretch, as they are
+------------------------------------------------------------------------- */
+
+void FixRBCStream::add_copies(std::vector<std::vector<Vec3>> &found)
+{
+  const std::vector<std::int64_t> ids = stretch->waiting();    // which others are taken from
+  for (std::int64_t id : ids) {
+    const auto cell = waiting.find(static_cast<tagint>(id));
+    if (cell == waiting.end()) continue;
+    if (ledger->owed() - static_cast<double>(found.size()) < -AHEAD) return;
+    if (!add_copy(cell->second, found)) continue;
+    stretch->copied(id);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   As the cells before it have moved on otherwise than those that they are copies of, one may come
+   later: before the stretch there is room.
+------------------------------------------------------------------------- */
+
+bool FixRBCStream::add_copy(const std::vector<Vec3> &original,
+                            std::vector<std::vector<Vec3>> &found)
+{
+  for (int later = 0; later <= LATER; ++later) {
+    const double back = stretch->length() + later * placement->reach() / LATER;
+    std::vector<Vec3> vertices = original;
+    for (Vec3 &vertex : vertices) vertex[along] -= upwards ? back : -back;
+    if (!placement->take(vertices)) continue;
+    found.push_back(std::move(vertices));
+    return true;
+  }
+  return false;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCStream::add_random(std::vector<std::vector<Vec3>> &found)
+{
+  while (ledger->owed() - static_cast<double>(found.size()) >= late()) {
+    const auto place = placement->find(attempts);
+    if (!place) return;
+    found.emplace_back();
+    for (const Vec3 &vertex : shape->vertices)
+      found.back().push_back(place->centre + place->rotation * vertex);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   what rank 0 has found
+------------------------------------------------------------------------- */
+
+void FixRBCStream::share(std::vector<std::vector<Vec3>> &found) const
+{
+  std::vector<double> numbers;
+  for (const std::vector<Vec3> &vertices : found)
+    for (const Vec3 &vertex : vertices)
+      numbers.insert(numbers.end(), vertex.data(), vertex.data() + 3);
+  numbers = gather_all(numbers, world);
+  found.assign(numbers.size() / (3 * shape->vertices.size()), {});
+  auto next = numbers.begin();
+  for (std::vector<Vec3> &vertices : found)
+    for (int v = 0; v < shape->vertex_count(); ++v, next += 3) vertices.emplace_back(&*next);
+}
+
+/* ---------------------------------------------------------------------- */
 
 void FixRBCStream::warn_of_delay()
 {
@@ -213,11 +336,10 @@ void FixRBCStream::add_arrivals()
     error->all(FLERR, "{}: no molecule IDs are left beyond {}, the largest", style, last_molecule);
 
   NewAtoms atoms(lmp, style, static_cast<bigint>(arrivals.size()) * size, last_atom);
-  for (const auto &place : arrivals) {
+  for (const std::vector<Vec3> &vertices : arrivals) {
     ++last_molecule;
-    for (int v = 0; v < size; ++v) {
-      const NewAtoms::Made made =
-          atoms.add(cell_type, place.centre + place.rotation * shape->vertices[v]);
+    for (const Vec3 &vertex : vertices) {
+      const NewAtoms::Made made = atoms.add(cell_type, vertex);
       if (made.index < 0) continue;
       atom->molecule[made.index] = last_molecule;
       atom->image[made.index] = made.image;

@@ -44,8 +44,7 @@ def stream(**changes):
             f"rbc/create rbc single {LAST - 1} {SIDE / 2} {SIDE / 2} rotate 90 0 1 0")
     return tube(RADIUS, LENGTH, **{
         "more": more, "wall": f"{TUBE['wall']}\n{MEMBRANE}\n{CONTACT}", **ports,
-        "neighbor": TUBE["neighbor"].replace("every 1 delay 0 check no ", ""),
-        "ib": stream_fix(STREAM),
+        "neighbor": f"{TUBE['neighbor']}\natom_modify sort 0 0.0", "ib": stream_fix(STREAM),
         "thermo": "thermo_style custom step atoms " + " ".join(COLUMNS),
         "timestep": f"timestep {DT}", **changes})
 
@@ -146,8 +145,10 @@ class Stream(unittest.TestCase):
 
 
 class Empty(unittest.TestCase):
+    RANKS = (1, 4)
+
     def test_a_tube_that_fills_and_one_that_drains(self):
-        for ranks in (1, 4):
+        for ranks in self.RANKS:
             table = run(stream(**EMPTY, run="run 40"), ranks).thermo
             inside = table["f_stream[3]"]
             self.assertEqual(inside[0], 0)
@@ -187,20 +188,62 @@ class Flow(unittest.TestCase):
         self.assertLess(table["f_stream[5]"][-1], 0.95)
 
 
+COIN = f"{SIDE / 2} {SIDE / 2} rotate 90 0 1 0"
+LOOP = dict(
+    more=f"molecule rbc {POTENTIALS}/rbc_162.mol\nrbc/create rbc single {FEED[0] + 2} {COIN}\n"
+    f"rbc/create rbc single {FEED[0] + 8} {COIN}",
+    ib=stream_fix(f"{STREAM} periodic x"))
+
+
+class Periodic(unittest.TestCase):
+    """A stretch of a tube with two cells in it, one behind the other."""
+    STEPS = 60
+
+    def test_copies_of_what_leaves_the_region(self):
+        dump = dump_line(1, columns=DUMP).replace("dump atoms all", "dump atoms cells")
+        result = run(stream(**LOOP, dump=dump, run=f"run {self.STEPS}"))
+        table = result.thermo
+        frames = [cells_of(frame) for frame in result.dump().frames]
+        length = FEED[1] - FEED[0]
+        copies = 0
+        for before, now in zip(frames, frames[1:]):
+            for new in set(now) - set(before):
+                shifts = [now[old] - now[new] for old in before if old in now]
+                same = [shift for shift in shifts if abs(shift - shift[0]).max() < 1e-9]
+                if not same:    # drawn at random
+                    continue
+                copies += 1
+                np.testing.assert_allclose(same[0][0][1:], 0, atol=1e-9)
+                self.assertGreaterEqual(same[0][0][0], length - 1e-9)
+                self.assertLess(same[0][0][0], length + 4.5)
+                self.assertGreater(now[new][:, 0].mean(), FEED[0] - 4.5)
+        print(f"\n{copies} copies of {table[COLUMNS[0]][-1]:.0f} cells that entered, owed "
+              f"{table[COLUMNS[3]].min():.2f} to {table[COLUMNS[3]].max():.2f}")
+        self.assertGreaterEqual(copies, 2)
+        self.assertGreater(table[COLUMNS[3]].min(), -2)
+        self.assertLess(table[COLUMNS[3]].max(), 2.5)
+
+
 class Restart(unittest.TestCase):
-    STEPS = 30
+    STEPS, RANKS = 30, (1, 2)
 
     def test_a_run_in_pieces_is_that_of_one_piece(self):
+        self.check()
+
+    def test_with_a_periodic_stretch(self):
+        self.check(**LOOP)
+
+    def check(self, **changes):
         steps = self.STEPS
         columns = "id mol xu yu zu vx vy vz"
-        begin = stream(every=f"thermo {steps}", run="", dump="")
+        begin = stream(every=f"thermo {steps}", run="", dump="", **changes)
         after = after_restart(begin)
         script = (f"{begin}{dump_line(2 * steps, 'whole', columns)}\nrun {2 * steps}\nclear\n"
                   f"{begin}{dump_line(2 * steps, 'pieces', columns)}\n"
                   f"run {steps}\nwrite_restart r\nrun {steps}\nclear\n"
                   f"read_restart r\n{after}\n{dump_line(2 * steps, 'after', columns)}\n"
                   f"run {steps}\n")
-        for ranks in (1, 2):
+        for ranks in self.RANKS:
             result = run(script, ranks)
             tables = result.tables()
             self.assertGreater(tables[0][COLUMNS[0]][-1], tables[1][COLUMNS[0]][-1])
@@ -226,10 +269,15 @@ def after_restart(script):
 
 
 class Tasks(unittest.TestCase):
+    STEPS = 100
+
     def test_any_number_of_them(self):
         wall = f"{TUBE['wall'].replace('tol 1e-4', 'tol 1e-11')}\n{MEMBRANE}\n{CONTACT}"
-        dump = dump_line(100, columns=DUMP)
-        results = [run(stream(wall=wall, dump=dump, run="run 100"), ranks) for ranks in (1, 2, 4)]
+        dump = dump_line(self.STEPS, columns=DUMP)
+        results = [run(stream(wall=wall, dump=dump, run=f"run {self.STEPS}"), ranks)
+                   for ranks in (1, 2, 4)]
+        self.assertGreater(results[0].thermo[COLUMNS[0]][-1], 0)
+        self.assertGreater(results[0].thermo[COLUMNS[1]][-1], 0)
         for result in results[1:]:
             for column in COLUMNS:
                 np.testing.assert_allclose(result.thermo[column], results[0].thermo[column],
@@ -287,6 +335,8 @@ ERRORS = {
     "overlap 0": (STREAM.replace(f"overlap {GAP}", "overlap 0"),
                   ["fix rbc/stream overlap", "0", "> 0"]),
     "no attempts": (STREAM + " attempts 0", ["fix rbc/stream attempts", "0", "> 0"]),
+    "periodic along no side": (STREAM + " periodic w",
+                               ["fix rbc/stream periodic", "w", "x, y, z, -x, -y, -z"]),
     "every 0": (STREAM + " every 0", ["fix rbc/stream every", "0", "> 0"]),
     "type 3": (STREAM + " type 3", ["fix rbc/stream type", "3"]),
     "group all": (STREAM.replace("stream cells", "stream all"),

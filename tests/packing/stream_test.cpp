@@ -4,6 +4,7 @@
 #include "../geometry/test_support.h"
 #include "geometry/triangle_distance.h"
 #include "packing/cell_placement.h"
+#include "packing/periodic_stretch.h"
 #include "packing/stream_ledger.h"
 #include "packing/surface_gap.h"
 
@@ -160,6 +161,80 @@ TEST(CellPlacement, CellsKeepTheGapFromAllThatIsThere)
     for (const Vec3 &point : points) EXPECT_GE(surface_gap(point, cell, 1), gap);
     found.push_back(x);
   }
+}
+
+TEST(CellPlacement, TakesCellsOfAnyShapeThatKeepTheGap)
+{
+  const SurfaceTemplate shape = disc(3).surface();
+  const double gap = 0.1;
+  Random random(8);
+  int fitted = 0;
+  const int count = 60;
+  for (int n = 0; n < count; ++n) {
+    const Vertices there = waved(shape.vertices, n);
+    const Matrix3 turn = random.rotation();
+    const Vec3 apart = random.between(1, 2) * random.direction();
+    Vertices here = waved(shape.vertices, n + count);
+    for (Vec3 &x : here) x = apart + turn * x;
+    const bool fits = least_distance(shape, here, there) >= gap;
+    CellPlacement placement(shape, gap, 1);
+    placement.avoid_surface({there, &shape.triangles});
+    EXPECT_EQ(placement.take(here), fits);
+    EXPECT_FALSE(placement.take(here)) << "a cell is there already";
+    fitted += fits;
+  }
+  EXPECT_GT(fitted, count / 4);
+  EXPECT_LT(fitted, 3 * count / 4);
+
+  CellPlacement placement(shape, gap, 1);
+  placement.avoid_point(shape.vertices[0] * 1.05);
+  EXPECT_FALSE(placement.take(shape.vertices));
+  placement.clear();
+  placement.avoid_point(Vec3::Zero());    // inside
+  EXPECT_FALSE(placement.take(shape.vertices));
+  placement.clear();
+  placement.avoid_point(shape.vertices[0] * 3);
+  EXPECT_TRUE(placement.take(shape.vertices));
+}
+
+using Cells = std::vector<rbc::PeriodicStretch::Cell>;
+using IDs = std::vector<std::int64_t>;
+
+TEST(PeriodicStretch, CellsThatLeaveItWaitForACopy)
+{
+  rbc::PeriodicStretch stretch(10, 2);
+  stretch.follow(
+      Cells{{1, 9, false}, {2, 9.5, false}, {3, 10.5, false}, {4, 9, true}, {5, -1, false}});
+  EXPECT_EQ(stretch.waiting(), IDs{});
+  stretch.follow(Cells{{1, 10, false},
+                       {2, 10.5, false},
+                       {3, 11, false},
+                       {4, 10.5, false},
+                       {5, 0, false},
+                       {6, 11, false}});
+  EXPECT_EQ(stretch.waiting(), (IDs{2, 1}));    // 3, 4 and 6 were not in it
+  stretch.copied(2);
+  stretch.follow(Cells{{1, 10.7, false}, {2, 11, false}, {5, 0.5, false}});
+  EXPECT_EQ(stretch.waiting(), IDs{1});
+  stretch.follow(Cells{{1, 12, false}, {2, 11.5, false}, {5, -0.5, false}});
+  EXPECT_EQ(stretch.waiting(), IDs{});    // too late; 5 left it at its beginning
+  stretch.follow(Cells{{1, 9, false}, {5, 0.1, false}});
+  stretch.follow(Cells{{1, 11, false}});    // came back; 5 has gone
+  EXPECT_EQ(stretch.waiting(), IDs{1});
+}
+
+TEST(PeriodicStretch, GoesOnFromItsState)
+{
+  rbc::PeriodicStretch one(10, 2), other(10, 2);
+  one.follow(Cells{{7, 9, false}, {8, 9, false}, {9, 3, false}});
+  one.follow(Cells{{7, 10.1, false}, {8, 9.9, false}, {9, 4, false}});
+  other.restore(one.state());
+  for (rbc::PeriodicStretch *stretch : {&one, &other}) {
+    EXPECT_EQ(stretch->waiting(), IDs{7});
+    stretch->follow(Cells{{7, 10.2, false}, {8, 10.3, false}, {9, 4.1, false}});
+    EXPECT_EQ(stretch->waiting(), (IDs{8, 7}));
+  }
+  EXPECT_EQ(one.state(), other.state());
 }
 
 TEST(CellPlacement, NeitherInsideASurfaceNorAroundOne)

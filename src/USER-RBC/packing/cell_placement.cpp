@@ -67,6 +67,28 @@ bool is_inside(const Vec3 &x, const CellPlacement::Surface &surface)
   return std::abs(half_angle) > M_PI;    // 2 pi inside, 0 outside
 }
 
+/// Neither nearer than the gap nor one inside the other.
+bool are_apart(const CellPlacement::Surface &one, const CellPlacement::Surface &other, double gap)
+{
+  const Bounds here = bounds_of(one.vertices), there = bounds_of(other.vertices);
+  if (!here.near(there, gap)) return true;
+  const auto others = facing(other.vertices, *other.triangles, here, gap);
+  for (const BoundedTriangle &own : facing(one.vertices, *one.triangles, there, gap))
+    for (const BoundedTriangle &triangle : others)
+      if (own.bounds.near(triangle.bounds, gap) && distance(own.corners, triangle.corners) < gap)
+        return false;
+  return !is_inside(one.vertices[0], other) && !is_inside(other.vertices[0], one);
+}
+
+bool is_off(const Vec3 &point, const CellPlacement::Surface &surface, double gap)
+{
+  for (const auto &[i, j, k] : *surface.triangles)
+    if (squared_distance(point, {surface.vertices[i], surface.vertices[j], surface.vertices[k]}) <
+        gap * gap)
+      return false;
+  return !is_inside(point, surface);
+}
+
 }    // namespace
 
 CellPlacement::CellPlacement(const SurfaceTemplate &cell, double gap, unsigned seed) :
@@ -87,14 +109,31 @@ void CellPlacement::clear()
   points_.clear();
 }
 
-void CellPlacement::avoid_surface(Surface surface)
+CellPlacement::Placed::Placed(Surface surface_in) :
+    surface(std::move(surface_in)), centre(Vec3::Zero()), radius(0)
 {
-  Vec3 centre = Vec3::Zero();
   for (const Vec3 &vertex : surface.vertices) centre += vertex;
   centre /= static_cast<double>(surface.vertices.size());
-  double radius = 0;
   for (const Vec3 &vertex : surface.vertices) radius = std::max(radius, (vertex - centre).norm());
-  placed_.push_back({std::move(surface), centre, radius});
+}
+
+void CellPlacement::avoid_surface(Surface surface)
+{
+  placed_.emplace_back(std::move(surface));
+}
+
+bool CellPlacement::take(std::vector<Vec3> vertices)
+{
+  Placed cell({std::move(vertices), &shape_.surface.triangles});
+  for (const Vec3 &point : points_)
+    if ((point - cell.centre).norm() < cell.radius + gap_ && !is_off(point, cell.surface, gap_))
+      return false;
+  for (const Placed &other : placed_)
+    if ((other.centre - cell.centre).norm() < cell.radius + gap_ + other.radius &&
+        !are_apart(cell.surface, other.surface, gap_))
+      return false;
+  placed_.push_back(std::move(cell));
+  return true;
 }
 
 std::optional<CellPlacement::Place> CellPlacement::find(int draws)
@@ -134,36 +173,27 @@ std::optional<RigidCell> CellPlacement::draw(std::int64_t number) const
 
 bool CellPlacement::fits(const RigidCell &cell) const
 {
-  std::vector<Vec3> vertices;
+  Surface own{{}, &shape_.surface.triangles};
   for (int v = 0; v < shape_.surface.vertex_count(); ++v) {
-    vertices.push_back(cell.vertex(v));
-    if (enclosure_ && !enclosure_->contains(vertices.back())) return false;
+    own.vertices.push_back(cell.vertex(v));
+    if (enclosure_ && !enclosure_->contains(own.vertices.back())) return false;
   }
   for (const Vec3 &point : points_)
     if ((point - cell.centre).norm() < reach() && surface_gap(point, cell, gap_) < gap_)
       return false;
   for (const Placed &other : placed_)
     if ((other.centre - cell.centre).norm() < reach() + other.radius &&
-        !is_clear(cell, vertices, other.surface))
+        !is_clear(cell, own, other.surface))
       return false;
   return true;
 }
 
-/// The distance field, whose errors are small beside a gap, tells of most that do not fit, and of
-/// surfaces within the cell.
-bool CellPlacement::is_clear(const RigidCell &cell, const std::vector<Vec3> &vertices,
-                             const Surface &surface) const
+/// The distance field, whose errors are small beside a gap, tells of most that do not fit.
+bool CellPlacement::is_clear(const RigidCell &cell, const Surface &own, const Surface &other) const
 {
-  for (const Vec3 &vertex : surface.vertices)
+  for (const Vec3 &vertex : other.vertices)
     if (shape_.field.at(cell.body(vertex)).distance < gap_) return false;
-  const Bounds here = bounds_of(vertices), there = bounds_of(surface.vertices);
-  if (!here.near(there, gap_)) return true;
-  const auto others = facing(surface.vertices, *surface.triangles, here, gap_);
-  for (const BoundedTriangle &own : facing(vertices, shape_.surface.triangles, there, gap_))
-    for (const BoundedTriangle &other : others)
-      if (own.bounds.near(other.bounds, gap_) && distance(own.corners, other.corners) < gap_)
-        return false;
-  return !is_inside(vertices[0], surface);
+  return are_apart(own, other, gap_);
 }
 
 }    // namespace rbc

@@ -40,6 +40,10 @@ class CellPlacement {
   /// A cell placed there is avoided from then on.
   std::optional<Place> find(int draws);
 
+  /// Whether a cell of any shape that has these vertices keeps the gap where it is; if so it is
+  /// avoided from then on. The enclosure does not count.
+  bool take(std::vector<Vec3> vertices);
+
   /// Draws made so far.
   std::int64_t drawn() const { return drawn_; }
   void set_drawn(std::int64_t drawn) { drawn_ = drawn; }
@@ -52,6 +56,8 @@ class CellPlacement {
     Surface surface;
     Vec3 centre;
     double radius;    ///< of the sphere about it that holds the surface
+
+    explicit Placed(Surface surface);
   };
 
   RigidShape shape_;
@@ -65,8 +71,7 @@ class CellPlacement {
 
   std::optional<RigidCell> draw(std::int64_t number) const;
   bool fits(const RigidCell &cell) const;
-  bool is_clear(const RigidCell &cell, const std::vector<Vec3> &vertices,
-                const Surface &surface) const;
+  bool is_clear(const RigidCell &cell, const Surface &own, const Surface &other) const;
 };
 
 }    // namespace rbc
