@@ -11,6 +11,7 @@ import numpy as np
 BLOCK = 16      # points of the grid along each side of what is evaluated at once
 ROUNDS = 15     # of moves along the surface
 NEWTON = 4      # steps onto it at the end
+NEAREST = 0.1   # of a spacing, to points of the grid: vertices of several cells would lie on one
 
 
 def surface_of(distance, lowest, highest, edge):
@@ -66,7 +67,7 @@ def net(values):
         sides = np.argwhere((start < 0) != (end < 0))
         a, b = start[tuple(sides.T)], end[tuple(sides.T)]
         crossing = sides.astype(float)
-        crossing[:, axis] += a / (a - b)
+        crossing[:, axis] += np.clip(a / (a - b), NEAREST, 1 - NEAREST)
         around = np.zeros((4, 3), dtype=int)
         around[[0, 3], (axis + 1) % 3] = around[[0, 1], (axis + 2) % 3] = -1
         four = sides[:, None] + around
@@ -97,7 +98,7 @@ def normals_of(points, triangles):
     """Unit vectors at the vertices."""
     a, b, c = points[triangles].transpose(1, 0, 2)
     sums = scattered(triangles.ravel(), np.repeat(np.cross(b - a, c - a), 3, axis=0))
-    return sums / np.linalg.norm(sums, axis=1, keepdims=True)
+    return sums / np.maximum(np.linalg.norm(sums, axis=1, keepdims=True), np.finfo(float).tiny)
 
 
 def evened(points, squares, distance):
