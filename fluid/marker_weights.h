@@ -3,7 +3,7 @@
 #include "fluid/grid.h"
 #include "fluid/kernel.h"
 #include "fluid/lanes.h"
-#include "fluid/spreading.h"
+#include "fluid/marker_set.h"
 
 #include <algorithm>
 #include <cmath>
