@@ -108,10 +108,9 @@ int spread_with(const Grid &grid, const MarkerSet &markers, const DoubleLayer &l
       const int marker = markers.index[begin + n];
       const LayerStencil<Kernel> stencil(weights, n, grid);
       if (!stencil.inside(within)) return marker;
-      const double *const v = layer.velocity + 3 * std::ptrdiff_t(marker), *const s =
-                                                                               layer.strength +
-                                                                               3 * std::ptrdiff_t(
-                                                                                       marker);
+      const std::ptrdiff_t row = 3 * std::ptrdiff_t(marker);
+      const double *const v = layer.velocity + row;
+      const double *const s = layer.strength + row;
       for (int c = 0; c < 3; ++c) {
         const Real3 t{stress * (v[c] * s[0] + s[c] * v[0]), stress * (v[c] * s[1] + s[c] * v[1]),
                       stress * (v[c] * s[2] + s[c] * v[2])};

@@ -23,9 +23,11 @@ ENDED = "Total wall time"           # in the log of a piece that was not killed
 
 
 def log_table(path):
-    """Columns by name of the table in a LAMMPS log; a line cut short at the end is left out."""
-    names, rows = thermo_log.tables(path.read_text(encoding="utf-8"))[0]
-    return dict(zip(names, rows.T))
+    """Columns by name of the table in a LAMMPS log; a line cut short at the end is left out. Empty
+    if the run has not begun."""
+    for names, rows in thermo_log.tables(path.read_text(encoding="utf-8")):
+        return dict(zip(names, rows.T))
+    return {}
 
 
 def logs(folder):
@@ -37,11 +39,16 @@ def logs(folder):
 def history(folder):
     """Tables of the logs of all pieces, one after the other; the first step of a piece is the last
     of the one before."""
-    first, *others = [log_table(log) for log in logs(folder)]
+    first, *others = filter(None, map(log_table, logs(folder)))
     for table in others:
         table["f_ib[8]"] += first["f_ib[8]"][-1]    # counted from the start of each piece
         first = {name: np.concatenate([first[name], table[name][1:]]) for name in first}
     return first
+
+
+def has_begun(folder):
+    """Whether there is a history."""
+    return any(map(log_table, logs(folder)))
 
 
 def last_log(folder):

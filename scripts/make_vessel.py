@@ -37,7 +37,7 @@ import vessel_network
 
 CENTRELINE = 400      # points along it
 MOST_TRIANGLES = 2e7
-MOST_CELLS = 2e8      # of the grid around a network: 1.6 GB
+MOST_CELLS = 5e7      # of the grid around a network: some 4 GB at most, for a moment
 SIZES = {             # that only some shapes have
     "throat_diameter": "throat", "throat_length": "throat", "taper": "throat", "daughter_diameter": "bifurcation",
     "distance": "bifurcation", "nodes": "network", "segments": "network"}

@@ -51,7 +51,8 @@ def without_crossings(values):
             signs = corners < 0
             crossed = (signs[0] == signs[2]) & (signs[1] == signs[3]) & (signs[0] != signs[1])
             i, j, k = np.nonzero(crossed)
-            least = np.where(signs, np.inf, corners)[:, i, j, k].argmin(axis=0)
+            at = corners[:, i, j, k]
+            least = np.where(at < 0, np.inf, at).argmin(axis=0)
             places = i + steps[least, 0], j + steps[least, 1], k
             first[places] = -np.maximum(first[places], np.finfo(float).tiny)
             found |= len(i) > 0

@@ -165,7 +165,7 @@ def print_tables(blood, cost):
 def analyse(arguments):
     """Writes the tables and the picture of the curves; returns the measures of the runs."""
     folder = example_study.runs_folder(arguments)
-    rates = [rate for rate in RATES if blood_runs.logs(folder / rate)]
+    rates = [rate for rate in RATES if blood_runs.has_begun(folder / rate)]
     blood = {rate: measure(folder / rate) for rate in rates}
     cost = {rate: costs(folder / rate) for rate in rates}
     if blood:

@@ -258,14 +258,16 @@ void FixRBCMembrane::ask_for_ghosts()
 }
 
 /* ----------------------------------------------------------------------
-   LAMMPS sorts atoms by bins. In bins as large as a cell most of its vertices stay neighbors in
-   memory, and cells that are near each other come one after the other.
+   LAMMPS sorts atoms by bins. In bins as large as the largest cells most vertices of a cell stay
+   neighbors in memory, and cells that are near each other come one after the other.
 ------------------------------------------------------------------------- */
 
 void FixRBCMembrane::keep_cells_together()
 {
-  if (atom->sortfreq > 0 && atom->userbinsize == 0)
-    atom->userbinsize = std::sqrt(cells.shape().area / MathConst::MY_PI);
+  if (atom->sortfreq == 0 || atom->userbinsize > 0) return;
+  for (const CellMembranes *membranes : all_cell_membranes(lmp))
+    atom->userbinsize =
+        std::max(atom->userbinsize, std::sqrt(membranes->shape().area / MathConst::MY_PI));
 }
 
 /* ---------------------------------------------------------------------- */

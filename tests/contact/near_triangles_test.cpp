@@ -247,6 +247,25 @@ TEST(Finder, SmallSurfacesFarApart)
 
 INSTANTIATE_TEST_SUITE_P(Shapes, Finder, testing::Values(1, 2, 3, 4, 5, 6));
 
+// A vertex between two sheets of its own surface: it sees the outside of the one above, and the one
+// below from within.
+TEST(Finder, SideOfItsOwnSurfaceIsThatOfTheNearestSheet)
+{
+  std::vector<Vec3> x{{0, 0, 0},       {-1, -1, 0.1}, {0, 1, 0.1},   {1, -1, 0.1},
+                      {-1, -1, -0.11}, {0, 1, -0.11}, {1, -1, -0.11}};
+  const std::vector<NearTriangles::Triangle> triangles{{{1, 2, 3}, 1}, {{4, 5, 6}, 1}};
+  const std::vector<NearTriangles::Surface> surfaces(x.size(), 1);
+  NearTriangles finder;
+  finder.build(1, surfaces.data(), static_cast<int>(x.size()), x[0].data(), triangles, range, slack,
+               travel, [](int, int) { return true; });
+  for (const auto &[height, gap] : {std::pair(0.0, 0.1), std::pair(-0.02, -0.09)}) {
+    x[0][2] = height;
+    const auto &contacts = finder.contacts(x[0].data(), range);
+    ASSERT_EQ(contacts.size(), 1u);
+    EXPECT_NEAR(contacts[0].gap, gap, 1e-15);
+  }
+}
+
 TEST(Finder, PointOnTheSurface)
 {
   test::Mesh mesh = test::icosphere(2);

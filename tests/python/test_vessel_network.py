@@ -166,7 +166,7 @@ class Networks(unittest.TestCase):
                 (("--closed",), "--closed is not for the shape network"),
                 (("--edge", -1), "--edge -1.0 must be > 0"),
                 (("--edge", 1e-3), "--edge 0.001 makes about"),
-                (("--edge", 0.04), "cells in the box around the network, more than 2e+08")):
+                (("--edge", 0.04), "cells in the box around the network, more than 5e+07")):
             printed, code, _ = attempt(LOOP_NODES, LOOP_SEGMENTS, *words)
             self.assertEqual(code, 2, printed)
             self.assertIn(message, printed)

@@ -16,12 +16,15 @@ constexpr double TOUCHING = 1e-10;
 
 /* ----------------------------------------------------------------------
    On the straight way from where all were when built to where they are now the point has not met
-   the surface, so that it winds around the point as it did.
+   the surface, so that it winds around the point as it did. A point that is on the surface itself
+   is on the side of the triangle that is nearest now.
 ------------------------------------------------------------------------- */
 
 bool NearTriangles::has_kept_side(const Group &group) const
 {
-  return group.distance > held_distance(0, motion_.around(group.point));
+  const Triangle &any = (*triangles_)[candidates_.triangle[group.begin]];
+  return any.surface != surfaces_[group.point] &&
+         group.distance > held_distance(0, motion_.around(group.point));
 }
 
 void NearTriangles::add_contact(const double *x, Group &group)
