@@ -46,6 +46,10 @@ class FixRBCStream : public Fix, public CellSource {
   struct Outlet {
     std::string port, region;
   };
+  struct Inside {
+    double along;
+    std::vector<rbc::Vec3> vertices;
+  };
   struct Leaver {
     tagint molecule;
     int outlet;
@@ -70,6 +74,7 @@ class FixRBCStream : public Fix, public CellSource {
   tagint last_atom = 0, last_molecule = 0;    // highest IDs there have been
   bool warned = false;
   std::map<tagint, std::vector<rbc::Vec3>> waiting;    // vertices of cells to be copied, on rank 0
+  std::vector<Inside> inside;                          // cells in the periodic stretch, likewise
 
   class CellMembranes *membranes = nullptr;        // of the group's cells
   std::vector<Leaver> leavers;                     // of this step
@@ -87,6 +92,8 @@ class FixRBCStream : public Fix, public CellSource {
   void read_direction(class Arguments &);
   std::vector<Leaver> find_leavers(const std::vector<rbc::Vec3> &centres) const;
   void follow(const std::vector<rbc::Vec3> &centres);
+  double place_along(const rbc::Vec3 &centre) const;
+  bool is_beside(const rbc::Vec3 &centre) const;
   double late() const;
   bool is_due() const;
   void collect_obstacles();
@@ -95,7 +102,8 @@ class FixRBCStream : public Fix, public CellSource {
   rbc::Vec3 near_feed(const rbc::Vec3 &) const;
   std::vector<std::vector<rbc::Vec3>> find_arrivals();
   void add_copies(std::vector<std::vector<rbc::Vec3>> &found);
-  bool add_copy(const std::vector<rbc::Vec3> &original, std::vector<std::vector<rbc::Vec3>> &found);
+  void note_cell(std::size_t, const rbc::Vec3 &, const std::vector<rbc::Vec3> &);
+  bool add_copy(const std::vector<rbc::Vec3> &, double, std::vector<std::vector<rbc::Vec3>> &found);
   void add_random(std::vector<std::vector<rbc::Vec3>> &found);
   void share(std::vector<std::vector<rbc::Vec3>> &found) const;
   void warn_of_delay();

@@ -33,9 +33,9 @@ static constexpr double LONG_DELAY = 0.5, LEAST_DELAY = 3;
 
 static constexpr double AHEAD = 1, BEHIND = 1.5;
 
-// places that are tried for a copy along about half a diameter
+// places that are tried for a copy along about a diameter
 
-static constexpr int LATER = 20;
+static constexpr int LATER = 40;
 
 /* ----------------------------------------------------------------------
    Positions are those of the end of the step. Where cells change, neighbors are found anew.
@@ -97,17 +97,26 @@ std::vector<FixRBCStream::Leaver> FixRBCStream::find_leavers(const std::vector<V
 
 void FixRBCStream::follow(const std::vector<Vec3> &centres)
 {
-  const std::vector<tagint> &molecules = membranes->local_cells().molecules();
   std::vector<rbc::PeriodicStretch::Cell> cells;
-  for (std::size_t c = 0; c < centres.size(); ++c) {
-    const Vec3 from = near_feed(centres[c]) - feed_lo;
-    bool beside = false;
-    for (int d = 0; d < 3; ++d)
-      if (d != along) beside = beside || from[d] < 0 || from[d] > feed_length[d];
+  for (std::size_t c = 0; c < centres.size(); ++c)
     cells.push_back(
-        {molecules[c], upwards ? from[along] : feed_length[along] - from[along], beside});
-  }
+        {membranes->local_cells().molecules()[c], place_along(centres[c]), is_beside(centres[c])});
   stretch->follow(cells);
+}
+
+double FixRBCStream::place_along(const Vec3 &centre) const
+{
+  const double from = (near_feed(centre) - feed_lo)[along];
+  return upwards ? from : feed_length[along] - from;
+}
+
+bool FixRBCStream::is_beside(const Vec3 &centre) const
+{
+  const Vec3 from = near_feed(centre) - feed_lo;
+  bool beside = false;
+  for (int d = 0; d < 3; ++d)
+    if (d != along) beside = beside || from[d] < 0 || from[d] > feed_length[d];
+  return beside;
 }
 
 /* ----------------------------------------------------------------------
@@ -144,6 +153,7 @@ void FixRBCStream::collect_obstacles()
 {
   placement->clear();
   waiting.clear();
+  inside.clear();
   for (CellMembranes *cells : all_cell_membranes(lmp)) add_surfaces(*cells);
   add_points();
 }
@@ -169,13 +179,23 @@ void FixRBCStream::add_surfaces(CellMembranes &others)
     std::vector<Vec3> &vertices = *next++;
     const Vec3 shift = near_feed(centres[c]) - centres[c];
     for (Vec3 &vertex : vertices) vertex += shift;
-    if (stretch && &others == membranes) {
-      const auto &ids = stretch->waiting();
-      const tagint molecule = others.local_cells().molecules()[c];
-      if (std::find(ids.begin(), ids.end(), molecule) != ids.end()) waiting[molecule] = vertices;
-    }
+    if (stretch && &others == membranes) note_cell(c, centres[c], vertices);
     placement->avoid_surface({std::move(vertices), &others.shape().triangles});
   }
+}
+
+/* ----------------------------------------------------------------------
+   of which a copy may be made
+------------------------------------------------------------------------- */
+
+void FixRBCStream::note_cell(std::size_t c, const Vec3 &centre, const std::vector<Vec3> &vertices)
+{
+  const double place = place_along(centre);
+  if (place >= 0 && place < stretch->length() && !is_beside(centre))
+    inside.push_back({place, vertices});
+  const auto &ids = stretch->waiting();
+  const tagint molecule = membranes->local_cells().molecules()[c];
+  if (std::find(ids.begin(), ids.end(), molecule) != ids.end()) waiting[molecule] = vertices;
 }
 
 /* ----------------------------------------------------------------------
@@ -186,11 +206,14 @@ void FixRBCStream::add_points()
 {
   int of_cells = 0;
   for (const CellMembranes *cells : all_cell_membranes(lmp)) of_cells |= cells->groupbit();
+  Vec3 margin = Vec3::Constant(gap);
+  if (stretch) margin[along] += 4 * placement->reach();    // copies may lie before it
   std::vector<double> mine;
   for (int i = 0; i < atom->nlocal; ++i) {
     if (atom->mask[i] & of_cells) continue;
     const Vec3 x = near_feed(Vec3(atom->x[i])), from = x - feed_lo;
-    if ((from.array() > -gap).all() && (from.array() < feed_length.array() + gap).all())
+    if ((from.array() > -margin.array()).all() &&
+        (from.array() < (feed_length + margin).array()).all())
       mine.insert(mine.end(), x.data(), x.data() + 3);
   }
   const std::vector<double> all = gather_on_first(mine, world);
@@ -228,21 +251,21 @@ void FixRBCStream::add_copies(std::vector<std::vector<Vec3>> &found)
     const auto cell = waiting.find(static_cast<tagint>(id));
     if (cell == waiting.end()) continue;
     if (ledger->owed() - static_cast<double>(found.size()) < -AHEAD) return;
-    if (!add_copy(cell->second, found)) continue;
-    stretch->copied(id);
+    if (add_copy(cell->second, stretch->length(), found)) stretch->copied(id);
   }
 }
 
 /* ----------------------------------------------------------------------
-   As the cells before it have moved on otherwise than those that they are copies of, one may come
-   later: before the stretch there is room.
+   By so much back or, where there is no room, by up to a diameter more: the cells before it may
+   have moved on otherwise than those that they are copies of, and in the plasma before the stretch
+   there is room.
 ------------------------------------------------------------------------- */
 
-bool FixRBCStream::add_copy(const std::vector<Vec3> &original,
+bool FixRBCStream::add_copy(const std::vector<Vec3> &original, double by,
                             std::vector<std::vector<Vec3>> &found)
 {
   for (int later = 0; later <= LATER; ++later) {
-    const double back = stretch->length() + later * placement->reach() / LATER;
+    const double back = by + later * 2 * placement->reach() / LATER;
     std::vector<Vec3> vertices = original;
     for (Vec3 &vertex : vertices) vertex[along] -= upwards ? back : -back;
     if (!placement->take(vertices)) continue;
@@ -254,9 +277,14 @@ bool FixRBCStream::add_copy(const std::vector<Vec3> &original,
 
 /* ---------------------------------------------------------------------- */
 
+/// With a periodic stretch a copy of one of its cells, before it.
 void FixRBCStream::add_random(std::vector<std::vector<Vec3>> &found)
 {
   while (ledger->owed() - static_cast<double>(found.size()) >= late()) {
+    if (!inside.empty()) {
+      const Inside &cell = inside[placement->pick(inside.size())];
+      if (add_copy(cell.vertices, cell.along, found)) continue;
+    }
     const auto place = placement->find(attempts);
     if (!place) return;
     found.emplace_back();

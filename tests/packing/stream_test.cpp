@@ -274,6 +274,20 @@ TEST(CellPlacement, ADrawIsTheSameWhateverWasDrawnBefore)
   EXPECT_GT((place->centre - differs->centre).norm(), 0.01);
 }
 
+TEST(CellPlacement, PicksAllNumbersAlike)
+{
+  const SurfaceTemplate shape = disc(2).surface();
+  CellPlacement placement(shape, 0.05, 9);
+  const int count = 3000;
+  std::array<int, 3> picked{};
+  for (int n = 0; n < count; ++n) ++picked[placement.pick(3)];
+  for (int times : picked) EXPECT_NEAR(times, count / 3.0, 5 * std::sqrt(count * 2.0 / 9));
+  EXPECT_EQ(placement.drawn(), count);
+  const std::size_t last = placement.pick(1000000);
+  placement.set_drawn(count);
+  EXPECT_EQ(placement.pick(1000000), last);
+}
+
 /// Means over n draws lie within 5 standard deviations of those of uniform distributions.
 TEST(CellPlacement, PlacesAndDirectionsAreUniform)
 {

@@ -4,7 +4,6 @@
 #include "packing/surface_gap.h"
 
 #include <cmath>
-#include <random>
 
 namespace rbc {
 
@@ -150,13 +149,23 @@ std::optional<CellPlacement::Place> CellPlacement::find(int draws)
   return std::nullopt;
 }
 
+std::size_t CellPlacement::pick(std::size_t count)
+{
+  return numbers(drawn_++)() % count;
+}
+
+std::mt19937_64 CellPlacement::numbers(std::int64_t draw) const
+{
+  const auto bits = static_cast<std::uint64_t>(draw);
+  std::seed_seq seeds{seed_, static_cast<unsigned>(bits), static_cast<unsigned>(bits >> 32)};
+  return std::mt19937_64(seeds);
+}
+
 /// The centre is uniform in the enclosure, the direction uniform over all rotations (Shoemake,
 /// Graphics Gems III, 1992).
 std::optional<RigidCell> CellPlacement::draw(std::int64_t number) const
 {
-  const auto bits = static_cast<std::uint64_t>(number);
-  std::seed_seq seeds{seed_, static_cast<unsigned>(bits), static_cast<unsigned>(bits >> 32)};
-  std::mt19937_64 random(seeds);
+  std::mt19937_64 random = numbers(number);
   const auto uniform = [&random] { return std::ldexp(static_cast<double>(random() >> 11), -53); };
   for (int n = 0; n < most_centres; ++n) {
     Vec3 centre;

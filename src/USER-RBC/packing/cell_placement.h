@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <random>
 #include <vector>
 
 namespace rbc {
@@ -44,6 +45,9 @@ class CellPlacement {
   /// avoided from then on. The enclosure does not count.
   bool take(std::vector<Vec3> vertices);
 
+  /// A number below `count`, by the next draw.
+  std::size_t pick(std::size_t count);
+
   /// Draws made so far.
   std::int64_t drawn() const { return drawn_; }
   void set_drawn(std::int64_t drawn) { drawn_ = drawn; }
@@ -69,6 +73,7 @@ class CellPlacement {
   std::vector<Placed> placed_;
   std::vector<Vec3> points_;
 
+  std::mt19937_64 numbers(std::int64_t draw) const;
   std::optional<RigidCell> draw(std::int64_t number) const;
   bool fits(const RigidCell &cell) const;
   bool is_clear(const RigidCell &cell, const Surface &own, const Surface &other) const;
