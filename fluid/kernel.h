@@ -15,8 +15,8 @@ namespace fluid {
 // marker; `surface_offset` is its mean over the marker's places.
 //
 // The corrections remove this error for surfaces with fluid on both sides, see sheet_correction().
-// The second is the variance of the weights, their place relative to the marker taken at random. With
-// the fourth a large sphere turns under its tractions as it should.
+// The second is the variance of the weights, their place relative to the marker taken at random.
+// With the fourth a large sphere turns under its tractions as it should.
 
 /// Four-point kernel of Peskin, Acta Numerica 11 (2002) 479, equations 6.27-6.28.
 struct Peskin4 {

@@ -26,10 +26,10 @@ void reflect_velocity(const Grid &grid, const PlateVelocities &plates, const Vec
 /// into each plate, so that grid and plates together receive all that was spread.
 void fold_force(const Grid &grid, const VectorField &force, Real3 &lower, Real3 &upper);
 
-/// A force f that was folded and then corrected to f - C_2 D f + C_4 D D f, as the velocity of sheets
-/// is, has another sum than f: differences across a plate do not cancel. `lower` and `upper` gain
-/// what is missing, so that grid and plates together receive the same as before. The ghosts of the
-/// force must be filled. Acts on this rank's brick only.
+/// A force f that was folded and then corrected to f - C_2 D f + C_4 D D f, as the velocity of
+/// sheets is, has another sum than f: differences across a plate do not cancel. `lower` and `upper`
+/// gain what is missing, so that grid and plates together receive the same as before. The ghosts of
+/// the force must be filled. Acts on this rank's brick only.
 void balance_correction(const Grid &grid, const Box &brick, KernelKind kernel,
                         const VectorField &force, Real3 &lower, Real3 &upper);
 

@@ -55,7 +55,8 @@ void FixRBCFluid::check_box() const
                "between plates); a vessel whose ends are ports lies as a whole, closed by walls of "
                "atoms, within such a box, 4 dx from its sides");
   if (!domain->zperiodic && (domain->boundary[2][0] != 1 || domain->boundary[2][1] != 1))
-    error->all(FLERR, "Fix rbc/fluid requires z to be periodic or fixed (boundary p p p, or p p f between "
+    error->all(FLERR,
+               "Fix rbc/fluid requires z to be periodic or fixed (boundary p p p, or p p f between "
                "plates)");
 }
 

@@ -114,7 +114,8 @@ void FixRBCIB::check_apart(const WallGroup &wall) const
 }
 
 /* ----------------------------------------------------------------------
-   of the fluid, with which cells of another viscosity inside are two fluid cells thick; 0 if they are
+   of the fluid, with which cells of another viscosity inside are two fluid cells thick; 0 if they
+   are
 ------------------------------------------------------------------------- */
 
 double FixRBCIB::spacing_for_insides() const

@@ -27,8 +27,8 @@ class CellCrossings : protected Pointers {
                 std::function<bool(int itype, int jtype)> touch);
 
   /// At the start of a run, after `surfaces` were built: cells that cross already are left out in
-  /// this run, with a warning. What styles `before` this one, `style`, test is left to them. Returns
-  /// whether there is anything else. Collective.
+  /// this run, with a warning. What styles `before` this one, `style`, test is left to them.
+  /// Returns whether there is anything else. Collective.
   bool start_run(const CellContact &style, std::vector<const CellContact *> before);
 
   /// The atoms, ghosts too, are where the step starts. Not collective.

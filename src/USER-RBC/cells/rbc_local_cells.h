@@ -57,8 +57,8 @@ class LocalCells : protected Pointers {
   /// Entries of vertices that this rank does not know are left alone.
   void gather(const Cell &cell, std::vector<rbc::Vec3> &x) const;
 
-  /// Sums `values`, `width` numbers for each of cells(), over ranks for the cells that several ranks
-  /// share, to be called by all of these. The values of other cells stay as they are.
+  /// Sums `values`, `width` numbers for each of cells(), over ranks for the cells that several
+  /// ranks share, to be called by all of these. The values of other cells stay as they are.
   void sum_shared(std::vector<double> &values, int width);
 
   /// Whether ranks share cells; the same on all of them.

@@ -72,7 +72,8 @@ class NearTriangles {
  private:
   enum class Side : std::int32_t { unknown, outside, inside };
 
-  /// Triangles of one surface near one point: candidates from `begin` up to those of the next group.
+  /// Triangles of one surface near one point: candidates from `begin` up to those of the next
+  /// group.
   struct Group {
     int point, begin;
     float distance;    ///< the least of its candidates

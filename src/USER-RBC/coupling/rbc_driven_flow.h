@@ -151,8 +151,8 @@ class DrivenFlow : public StepPart, protected Pointers {
                      const fluid::DoubleLayer *layer = nullptr,
                      const std::array<double, 3> &excess = {0, 0, 0}, bool with_forces = true);
 
-  /// Adds a double layer and its flow to the flow solved for, for output. `velocity` is overwritten.
-  /// Costs a solve. Returns what spread does. Collective.
+  /// Adds a double layer and its flow to the flow solved for, for output. `velocity` is
+  /// overwritten. Costs a solve. Returns what spread does. Collective.
   int add_layer(const fluid::MarkerSet &markers, const fluid::DoubleLayer &layer,
                 const std::array<double, 3> &excess, double *velocity);
 
@@ -166,8 +166,8 @@ class DrivenFlow : public StepPart, protected Pointers {
     unfinished_ = std::move(evaluation);
   }
 
-  /// Finishes the velocity of the last evaluation, or all of it. Call one of them before the flow is
-  /// read through flow(); diagnostics() and the other functions for output do so themselves.
+  /// Finishes the velocity of the last evaluation, or all of it. Call one of them before the flow
+  /// is read through flow(); diagnostics() and the other functions for output do so themselves.
   /// Collective.
   void finish_velocity();
   void finish_evaluation();

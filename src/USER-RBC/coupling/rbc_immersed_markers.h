@@ -64,9 +64,9 @@ class ImmersedMarkers : public rbc::Motion,
   void allow_any_speed_between_steps(bool any) { any_speed_between_steps_ = any; }
 
   /// Between steps, and at the start of a run, the atoms are as the last evaluation left them: only
-  /// then can its flow be finished. A fix whose forces depend on the flow looks at it at other times,
-  /// and gets it as it is. From then on the flow is finished at the end of each step of this run, so
-  /// that these forces do not depend on when output looked at it. Collective.
+  /// then can its flow be finished. A fix whose forces depend on the flow looks at it at other
+  /// times, and gets it as it is. From then on the flow is finished at the end of each step of this
+  /// run, so that these forces do not depend on when output looked at it. Collective.
   void between_steps(bool yes);
 
   /// Makes `v` the velocities of the last evaluation of this step, if there was one.

@@ -279,8 +279,8 @@ void ViscosityContrast::take_off_wrong(const fluid::MarkerSet &markers, double *
 }
 
 /* ----------------------------------------------------------------------
-   What is seen of w is the velocity of the cell as a whole and 1 + e times that relative to it. What
-   is left of that with the velocities of the layer is changed in the same way.
+   What is seen of w is the velocity of the cell as a whole and 1 + e times that relative to it.
+   What is left of that with the velocities of the layer is changed in the same way.
 ------------------------------------------------------------------------- */
 
 void ViscosityContrast::read(const fluid::MarkerSet &markers, double *velocity)

@@ -33,8 +33,8 @@ class DrivenFlow;
 /// All this counts for the motion of vertices relative to their cell alone. How a cell moves as a
 /// whole does not depend on its viscosity, but what the grid makes of the layer of such a motion is
 /// wrong by a small part of eta(x) / eta, which may be a large number. So the layer of the relative
-/// motion is spread, w is u outside and inside less the rigid motion times eta(x) / eta - 1, and the
-/// rest is added for output only. See theory.rst.
+/// motion is spread, w is u outside and inside less the rigid motion times eta(x) / eta - 1, and
+/// the rest is added for output only. See theory.rst.
 class ViscosityContrast : public StepPart, protected Pointers {
  public:
   explicit ViscosityContrast(LAMMPS *lmp) : Pointers(lmp) {}

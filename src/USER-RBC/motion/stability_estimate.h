@@ -27,8 +27,9 @@ class StabilityEstimate {
   /// radius that is not bearable.
   void start_run(double length, bool continues, bool forces_differ);
 
-  /// The radius for a step; estimates it where it is due. `bearable` is the largest radius for which
-  /// the stages chosen for last() are stable. Throws StepFailure if the radius is not a number.
+  /// The radius for a step; estimates it where it is due. `bearable` is the largest radius for
+  /// which the stages chosen for last() are stable. Throws StepFailure if the radius is not a
+  /// number.
   double radius(Motion &motion, PointStore &store, int mode_vector, const StepStart &start,
                 double bearable);
 

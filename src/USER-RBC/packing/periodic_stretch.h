@@ -6,8 +6,8 @@
 
 namespace rbc {
 
-/// A stretch of a vessel through which cells go, that is to be as if it were periodic: each cell that
-/// leaves it is to be followed by a copy where it begins. Tells which cells wait for that.
+/// A stretch of a vessel through which cells go, that is to be as if it were periodic: each cell
+/// that leaves it is to be followed by a copy where it begins. Tells which cells wait for that.
 class PeriodicStretch {
  public:
   /// A cell and where its centre is along the stretch.
