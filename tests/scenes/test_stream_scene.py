@@ -1,0 +1,34 @@
+"""Cells that enter a tube and leave it: the account of them, and what study.py makes of it."""
+
+import unittest
+
+import numpy as np
+
+from scene_case import polyhedron, run_example, study_of
+
+
+class Stream(unittest.TestCase):
+    def test_first_steps(self):
+        study = study_of("stream")
+        result = run_example("stream", transits=0.12, every=1, frames=1000)
+        rows = study.read(result.path("stream.dat"))
+        transits, entered, left, inside, owed = rows[:, :5].T
+        self.assertAlmostEqual(study.VOLUME / polyhedron("rbc_162")[1], 1, delta=1e-4)
+        volume = np.pi * study.DIAMETER**2 / 4 * study.LENGTH
+        steps = np.arange(1, len(rows) + 1)
+        np.testing.assert_allclose(transits, steps * 0.3 * 0.8 / study.LENGTH, rtol=1e-4)
+        # nothing is lost by counting
+        np.testing.assert_allclose(entered + owed,
+                                   study.HEMATOCRIT * transits * volume / study.VOLUME, atol=1e-3)
+        self.assertLess(abs(owed).max(), 2)
+        self.assertGreaterEqual(entered[-1], 5)
+        self.assertGreaterEqual(left[-1], 1)
+        self.assertEqual(len(set(inside - entered + left)), 1)
+        entering, leaving = study.discharge(rows, transits[0], transits[-1])
+        passed = (transits[-1] - transits[0]) * volume
+        self.assertAlmostEqual(entering * passed / study.VOLUME, entered[-1] - entered[0])
+        self.assertAlmostEqual(leaving * passed / study.VOLUME, left[-1] - left[0])
+
+
+if __name__ == "__main__":
+    unittest.main()
