@@ -104,6 +104,7 @@ class FixRBCStream : public Fix, public CellSource {
   void add_copies(std::vector<std::vector<rbc::Vec3>> &found);
   void note_cell(std::size_t, const rbc::Vec3 &, const std::vector<rbc::Vec3> &);
   bool add_copy(const std::vector<rbc::Vec3> &, double, std::vector<std::vector<rbc::Vec3>> &found);
+  bool add_another(std::vector<std::vector<rbc::Vec3>> &found);
   void add_random(std::vector<std::vector<rbc::Vec3>> &found);
   void share(std::vector<std::vector<rbc::Vec3>> &found) const;
   void warn_of_delay();

@@ -37,6 +37,10 @@ static constexpr double AHEAD = 1, BEHIND = 1.5;
 
 static constexpr int LATER = 40;
 
+// cells of a periodic stretch that are drawn in a step for a copy that is missing
+
+static constexpr int OTHERS = 10;
+
 /* ----------------------------------------------------------------------
    Positions are those of the end of the step. Where cells change, neighbors are found anew.
 ------------------------------------------------------------------------- */
@@ -277,14 +281,23 @@ bool FixRBCStream::add_copy(const std::vector<Vec3> &original, double by,
 
 /* ---------------------------------------------------------------------- */
 
-/// With a periodic stretch a copy of one of its cells, before it.
+bool FixRBCStream::add_another(std::vector<std::vector<Vec3>> &found)
+{
+  for (int n = 0; n < OTHERS && !inside.empty(); ++n) {
+    const Inside &cell = inside[placement->pick(inside.size())];
+    if (add_copy(cell.vertices, cell.along, found)) return true;
+  }
+  return false;
+}
+
+/* ----------------------------------------------------------------------
+   with a periodic stretch a copy of one of its cells, before it
+------------------------------------------------------------------------- */
+
 void FixRBCStream::add_random(std::vector<std::vector<Vec3>> &found)
 {
   while (ledger->owed() - static_cast<double>(found.size()) >= late()) {
-    if (!inside.empty()) {
-      const Inside &cell = inside[placement->pick(inside.size())];
-      if (add_copy(cell.vertices, cell.along, found)) continue;
-    }
+    if (add_another(found)) continue;
     const auto place = placement->find(attempts);
     if (!place) return;
     found.emplace_back();
