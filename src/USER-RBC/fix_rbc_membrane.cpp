@@ -259,12 +259,13 @@ void FixRBCMembrane::ask_for_ghosts()
 
 /* ----------------------------------------------------------------------
    LAMMPS sorts atoms by bins. In bins as large as the largest cells most vertices of a cell stay
-   neighbors in memory, and cells that are near each other come one after the other.
+   neighbors in memory, and cells that are near each other come one after the other. Without a pair
+   style LAMMPS does not sort, and need not.
 ------------------------------------------------------------------------- */
 
 void FixRBCMembrane::keep_cells_together()
 {
-  if (atom->sortfreq == 0 || atom->userbinsize > 0) return;
+  if (!force->pair || atom->sortfreq == 0 || atom->userbinsize > 0) return;
   for (const CellMembranes *membranes : all_cell_membranes(lmp))
     atom->userbinsize =
         std::max(atom->userbinsize, std::sqrt(membranes->shape().area / MathConst::MY_PI));

@@ -15,6 +15,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <cstring>
 #include <tuple>
 
 using namespace LAMMPS_NS;
@@ -136,14 +137,21 @@ FixRBCPort *FixRBCStream::find_port(const std::string &name) const
 }
 
 /* ----------------------------------------------------------------------
-   those that hold the cells of the group together
+   those that hold the cells of the group together, null if there are none
 ------------------------------------------------------------------------- */
+
+CellMembranes *FixRBCStream::membranes_of_group() const
+{
+  for (CellMembranes *cells : all_cell_membranes(lmp))
+    if (cells->groupbit() == groupbit) return cells;
+  return nullptr;
+}
+
+/* ---------------------------------------------------------------------- */
 
 void FixRBCStream::find_membranes()
 {
-  membranes = nullptr;
-  for (CellMembranes *cells : all_cell_membranes(lmp))
-    if (cells->groupbit() == groupbit) membranes = cells;
+  membranes = membranes_of_group();
   if (!membranes)
     error->all(FLERR, "{}: there is no fix rbc/membrane of its group, {}", style,
                group->names[igroup]);
@@ -154,13 +162,19 @@ void FixRBCStream::find_membranes()
 }
 
 /* ----------------------------------------------------------------------
-   new cells belong to this group and to all
+   New cells belong to this group and to all. The rates of ports are known once fix rbc/ib has had
+   its turn at the start of a run.
 ------------------------------------------------------------------------- */
 
 void FixRBCStream::check_moved() const
 {
-  for (const Fix *fix : modify->get_fix_by_style("^rbc/ib$"))
-    if (fix->igroup == 0 || fix->igroup == igroup) return;
+  bool before = true;
+  for (const Fix *fix : modify->get_fix_list()) {
+    if (fix == this) before = false;
+    if (strcmp(fix->style, "rbc/ib") != 0 || (fix->igroup != 0 && fix->igroup != igroup)) continue;
+    if (before) return;
+    error->all(FLERR, "{} must be defined after fix rbc/ib {}", style, fix->id);
+  }
   error->all(FLERR,
              "{}: new cells would not be moved: there is no fix rbc/ib of its group, {}, or of "
              "group all",
@@ -251,8 +265,8 @@ double FixRBCStream::compute_vector(int n)
     const double number[] = {outlet.cells, outlet.hematocrit(), outlet.volume};
     return number[(n - NUMBERS) % OUTLET_NUMBERS];
   }
-  const double inside =
-      membranes ? static_cast<double>(membranes->local_cells().molecules().size()) : 0;
+  CellMembranes *const now = membranes_of_group();    // between runs they may be gone
+  const double inside = now ? static_cast<double>(now->local_cells().molecules().size()) : 0;
   const double number[] = {in.cells,        left.cells,        inside,    ledger->owed(),
                            in.hematocrit(), left.hematocrit(), in.volume, left.volume};
   return number[n];

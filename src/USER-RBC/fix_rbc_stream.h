@@ -82,6 +82,7 @@ class FixRBCStream : public Fix, public CellSource {
 
   void parse(int, char **);
   void check_ports();
+  class CellMembranes *membranes_of_group() const;
   void find_membranes();
   void check_moved() const;
   void find_feed();
@@ -97,6 +98,7 @@ class FixRBCStream : public Fix, public CellSource {
   double late() const;
   bool is_due() const;
   void collect_obstacles();
+  void add_arrivals_of_others();
   void add_surfaces(CellMembranes &);
   void add_points();
   rbc::Vec3 near_feed(const rbc::Vec3 &) const;

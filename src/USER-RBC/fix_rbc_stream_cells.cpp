@@ -9,6 +9,7 @@
 #include "dump.h"
 #include "error.h"
 #include "fix_rbc_port.h"
+#include "modify.h"
 #include "output.h"
 #include "support/rbc_gather.h"
 #include "support/rbc_new_atoms.h"
@@ -84,11 +85,13 @@ std::vector<FixRBCStream::Leaver> FixRBCStream::find_leavers(const std::vector<V
 {
   std::vector<Leaver> found;
   if (outlets.empty()) return found;
+  std::vector<RegionEnclosure> ends;
+  for (const Outlet &outlet : outlets)
+    ends.emplace_back(domain->get_region_by_id(outlet.region), domain);
   const std::vector<tagint> &molecules = membranes->local_cells().molecules();
   for (std::size_t c = 0; c < centres.size(); ++c)
-    for (std::size_t n = 0; n < outlets.size(); ++n) {
-      const RegionEnclosure end(domain->get_region_by_id(outlets[n].region), domain);
-      if (!end.contains(centres[c])) continue;
+    for (std::size_t n = 0; n < ends.size(); ++n) {
+      if (!ends[n].contains(centres[c])) continue;
       found.push_back({molecules[c], static_cast<int>(n)});
       break;
     }
@@ -159,7 +162,25 @@ void FixRBCStream::collect_obstacles()
   waiting.clear();
   inside.clear();
   for (CellMembranes *cells : all_cell_membranes(lmp)) add_surfaces(*cells);
+  add_arrivals_of_others();
   add_points();
+}
+
+/* ----------------------------------------------------------------------
+   what other fixes rbc/stream, whose turn came before, will add in this step
+------------------------------------------------------------------------- */
+
+void FixRBCStream::add_arrivals_of_others()
+{
+  for (Fix *fix : modify->get_fix_by_style("^rbc/stream$")) {
+    const auto *const other = dynamic_cast<FixRBCStream *>(fix);
+    if (other == this) return;
+    for (std::vector<Vec3> vertices : other->arrivals) {
+      const Vec3 shift = near_feed(vertices[0]) - vertices[0];
+      for (Vec3 &vertex : vertices) vertex += shift;
+      placement->avoid_surface({std::move(vertices), &other->shape->triangles});
+    }
+  }
 }
 
 /* ----------------------------------------------------------------------
