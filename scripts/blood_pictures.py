@@ -99,7 +99,8 @@ def draw_curves(cases, paper, path):
                            label="aggregates of two and more")
     largest = max(case["of_cells"] for case in cases.values())
     sizes = 2 ** np.arange(int(np.log2(largest)) + 2)
-    axes["medians"].set(xlabel="shear rate (1/s)", ylabel="median size (cells)", ylim=(1, sizes[-1]))
+    axes["medians"].set(xlabel="shear rate (1/s)", ylabel="median size (cells)",
+                        ylim=(1, sizes[-1]))
     for axis, places in ((axes["medians"].xaxis, rates), (axes["medians"].yaxis, sizes)):
         axis.set_ticks([], minor=True)
         axis.set_ticks(places, [f"{place:g}" for place in places])

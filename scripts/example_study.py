@@ -21,7 +21,8 @@ def options(description, series=()):
                         default=command_line.default_executable())
     parser.add_argument("--ranks", type=int, default=1)
     if series:
-        parser.add_argument("--only", nargs="+", choices=list(dict.fromkeys(series)), help="series to run; default all")
+        parser.add_argument("--only", nargs="+", choices=list(dict.fromkeys(series)),
+                            help="series to run; default all")
     return parser
 
 

@@ -9,18 +9,19 @@ rbc/port`. Its axis is y = z = 0 (shift it with the region). All lengths are in 
 
 Shapes
   tube         straight and round
-  throat       a tube that narrows in its middle: straight, a taper, the throat, a taper, straight. The taper is half a
-               period of a cosine, so that the wall has no edges
-  bifurcation  a tube that parts into two in the plane z = 0, which join again. Daughters have the diameter of Murray's
-               law, 2^(-1/3) of the parent's, unless told otherwise
-  network      round tubes between nodes, from two tables: of nodes, with the columns node, x, y, z, and of segments,
-               with the columns from, to (names of nodes) and radius. Where tubes meet, edges are rounded
+  throat       a tube that narrows in its middle: straight, a taper, the throat, a taper, straight.
+               The taper is half a period of a cosine, so that the wall has no edges
+  bifurcation  a tube that parts into two in the plane z = 0, which join again. Daughters have the
+               diameter of Murray's law, 2^(-1/3) of the parent's, unless told otherwise
+  network      round tubes between nodes, from two tables: of nodes, with the columns node, x, y, z,
+               and of segments, with the columns from, to (names of nodes) and radius. Where tubes
+               meet, edges are rounded
 
 Examples
   make_vessel.py tube --length 45 --diameter 22.5 tube.stl
-  make_vessel.py throat --unit 8 throat.stl                    # Figure 6 of Xu et al. 2017 for cells of 8 um
+  make_vessel.py throat --unit 8 throat.stl       # Figure 6 of Xu et al. 2017 for cells of 8 um
   make_vessel.py bifurcation --length 120 --diameter 20 --distance 24 fork.stl
-  make_vessel.py bifurcation --length 60 --diameter 16 --closed fork.stl       # for ports at both ends
+  make_vessel.py bifurcation --length 60 --diameter 16 --closed fork.stl    # for ports at both ends
   make_vessel.py network --nodes nodes.csv --segments segments.csv net.stl     # examples/network
 """
 import math
@@ -39,8 +40,9 @@ CENTRELINE = 400      # points along it
 MOST_TRIANGLES = 2e7
 MOST_CELLS = 5e7      # of the grid around a network: some 4 GB at most, for a moment
 SIZES = {             # that only some shapes have
-    "throat_diameter": "throat", "throat_length": "throat", "taper": "throat", "daughter_diameter": "bifurcation",
-    "distance": "bifurcation", "nodes": "network", "segments": "network"}
+    "throat_diameter": "throat", "throat_length": "throat", "taper": "throat",
+    "daughter_diameter": "bifurcation", "distance": "bifurcation", "nodes": "network",
+    "segments": "network"}
 NOT_OF_NETWORKS = "unit", "length", "diameter", "closed"
 BLEND = 0.15          # of the parent's diameter: where branches meet
 
@@ -50,11 +52,13 @@ def swept(radius, length, edge):
     step each."""
     widest = radius(np.linspace(0, length, 1001)).max()
     around = max(8, round(2 * np.pi * widest / edge))
-    rings = 2 * max(2, round(length / (edge * np.sqrt(3) / 2) / 2))    # even: the last is turned as the first
+    # even: the last is turned as the first
+    rings = 2 * max(2, round(length / (edge * np.sqrt(3) / 2) / 2))
     x = np.linspace(0, length, rings + 1)
     angle = 2 * np.pi * (np.arange(around) + 0.5 * (np.arange(rings + 1)[:, None] % 2)) / around
     r = radius(x)[:, None]
-    points = np.stack([x[:, None] + 0 * angle, r * np.cos(angle), r * np.sin(angle)], axis=-1).reshape(-1, 3)
+    points = np.stack([x[:, None] + 0 * angle, r * np.cos(angle), r * np.sin(angle)],
+                      axis=-1).reshape(-1, 3)
     triangles = []
     j = np.arange(around)
     following = (j + 1) % around
@@ -100,7 +104,8 @@ def fork(options):
 
     step = options.edge
     reach = np.array([0, options.distance / 2 + daughter, 0]) + parent + 2 * step
-    counts = [round(length / step) + 1, 2 * int(np.ceil(reach[1] / step)) + 1, 2 * int(np.ceil(reach[2] / step)) + 1]
+    counts = [round(length / step) + 1, 2 * int(np.ceil(reach[1] / step)) + 1,
+              2 * int(np.ceil(reach[2] / step)) + 1]
     spacing = [length / (counts[0] - 1), step, step]
     x, y, z = (np.arange(n) * h - (0 if d == 0 else (n - 1) * h / 2)
                for d, (n, h) in enumerate(zip(counts, spacing)))
@@ -125,7 +130,8 @@ def fork(options):
     contour.Update()
     surface = contour.GetOutput()
     return (vtk_to_numpy(surface.GetPoints().GetData()).astype(float),
-            vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)[:, ::-1].astype(int))
+            vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)[:, ::-1]
+            .astype(int))
 
 
 def blending(x, length):
@@ -158,11 +164,13 @@ def write_stl(path, points, triangles):
     corners = points[triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     size = np.linalg.norm(normals, axis=1, keepdims=True)
-    record = np.zeros(len(triangles), dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+    record = np.zeros(len(triangles), dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)),
+                                             ("attribute", "<u2")])
     record["normal"] = normals / np.where(size > 0, size, 1)
     record["corners"] = corners
     with open(path, "wb") as file:
-        file.write(b"vessel by make_vessel.py".ljust(80) + np.uint32(len(record)).tobytes() + record.tobytes())
+        file.write(b"vessel by make_vessel.py".ljust(80) + np.uint32(len(record)).tobytes() +
+                   record.tobytes())
 
 
 def parse(words):
@@ -173,18 +181,25 @@ def parse(words):
     parser.add_argument("--length", type=float, help="of the vessel (15)")
     parser.add_argument("--diameter", type=float, help="of the tube or parent (3)")
     parser.add_argument("--throat-diameter", type=float, help="(half the diameter)")
-    parser.add_argument("--throat-length", type=float, help="of its straight part (a fifteenth of the length)")
-    parser.add_argument("--taper", type=float, help="length of each taper (two fifteenths of the length)")
+    parser.add_argument("--throat-length", type=float,
+                        help="of its straight part (a fifteenth of the length)")
+    parser.add_argument("--taper", type=float,
+                        help="length of each taper (two fifteenths of the length)")
     parser.add_argument("--daughter-diameter", type=float, help="(2^(-1/3) diameters)")
-    parser.add_argument("--distance", type=float, help="between the axes of the daughters (1.2 diameters)")
-    parser.add_argument("--nodes", type=Path, metavar="CSV", help="table of a network: node, x, y, z")
-    parser.add_argument("--segments", type=Path, metavar="CSV", help="table of a network: from, to, radius")
-    parser.add_argument("--edge", type=float, help="of the triangles (a twentieth of the least diameter)")
+    parser.add_argument("--distance", type=float,
+                        help="between the axes of the daughters (1.2 diameters)")
+    parser.add_argument("--nodes", type=Path, metavar="CSV",
+                        help="table of a network: node, x, y, z")
+    parser.add_argument("--segments", type=Path, metavar="CSV",
+                        help="table of a network: from, to, radius")
+    parser.add_argument("--edge", type=float,
+                        help="of the triangles (a twentieth of the least diameter)")
     parser.add_argument("--closed", action="store_true", help="with lids on both ends")
     options = parser.parse_args(words)
     for name, shape in SIZES.items():
         if getattr(options, name) is not None and options.shape != shape:
-            parser.error(f"--{name.replace('_', '-')} is for the shape {shape}, not {options.shape}")
+            parser.error(
+                f"--{name.replace('_', '-')} is for the shape {shape}, not {options.shape}")
     if options.shape == "network":
         complete_network(parser, options)
     else:
@@ -222,29 +237,35 @@ def complete_network(parser, options):
         parser.error("the shape network needs --nodes and --segments")
     options.network = vessel_network.read_network(options.nodes, options.segments)
     default(parser, options, "edge", options.network.radii.min() / 10)
-    check_count(parser, options, 2 * math.pi * (options.network.radii * options.network.lengths()).sum())
+    check_count(parser, options,
+                2 * math.pi * (options.network.radii * options.network.lengths()).sum())
     cells = np.prod(options.network.extent() / options.edge)
     if cells > MOST_CELLS:
-        parser.error(f"--edge {options.edge:g} makes about {cells:.1g} cells in the box around the network, more than "
-                     f"{MOST_CELLS:.0g}")
+        parser.error(f"--edge {options.edge:g} makes about {cells:.1g} cells in the box around the "
+                     f"network, more than {MOST_CELLS:.0g}")
 
 
 def check(parser, options):
     """What sizes must be to each other."""
     if options.shape == "throat" and options.throat_diameter > options.diameter:
-        parser.error(f"--throat-diameter {options.throat_diameter:g} must not be above the --diameter {options.diameter:g}")
+        parser.error(f"--throat-diameter {options.throat_diameter:g} must not be above the "
+                     f"--diameter {options.diameter:g}")
     if options.shape == "throat" and options.throat_length + 2 * options.taper > options.length:
-        parser.error(f"throat and tapers are {options.throat_length + 2 * options.taper:g} long, the vessel "
-                     f"{options.length:g}")
-    if options.shape == "bifurcation" and options.distance < options.daughter_diameter + 2 * options.edge:
-        parser.error(f"--distance {options.distance:g} leaves the daughters, {options.daughter_diameter:g} wide, in one")
+        parser.error(
+            f"throat and tapers are {options.throat_length + 2 * options.taper:g} long, the vessel "
+            f"{options.length:g}")
+    if (options.shape == "bifurcation"
+            and options.distance < options.daughter_diameter + 2 * options.edge):
+        parser.error(f"--distance {options.distance:g} leaves the daughters, "
+                     f"{options.daughter_diameter:g} wide, in one")
     check_count(parser, options, math.pi * options.diameter * options.length)
 
 
 def check_count(parser, options, area):
     triangles = 2 * area / options.edge**2
     if triangles > MOST_TRIANGLES:
-        parser.error(f"--edge {options.edge:g} makes about {triangles:.1g} triangles, more than {MOST_TRIANGLES:.0g}")
+        parser.error(f"--edge {options.edge:g} makes about {triangles:.1g} triangles, more than "
+                     f"{MOST_TRIANGLES:.0g}")
 
 
 def main(words):
