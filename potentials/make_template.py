@@ -10,8 +10,9 @@ Shapes
   sphere    of radius R
   disc      biconcave, axis along z: z = +-(R/2) sqrt(1 - x^2) (a0 + a1 x^2 + a2 x^4), x = r/R,
             a0 = 0.207, a1 = 2.002, a2 = -1.122 (Evans and Fung, Microvasc Res 4, 335 (1972))
-  spheroid  axis along z, by the ratio of its axis to its diameter or by its reduced volume. With --like, of the
-            area, triangles and numbering of a disc or sphere: the stress-free shape of such a cell
+  spheroid  axis along z, by the ratio of its axis to its diameter or by its reduced volume. With
+            --like, of the area, triangles and numbering of a disc or sphere: the stress-free shape
+            of such a cell
   sickle    ellipsoid bent along its long axis
   mesh      a surface from an STL, PLY, OFF or VTP file, or another template
 
@@ -81,7 +82,8 @@ def recognised(path):
     for shape in ("disc", "sphere"):
         made, made_triangles = template(shape, frequency, radius)
         if (made.shape == points.shape and triangles.shape == made_triangles.shape
-                and (triangles == made_triangles).all() and np.abs(points - made).max() < 1e-6 * radius):
+                and (triangles == made_triangles).all()
+                and np.abs(points - made).max() < 1e-6 * radius):
             return shape, frequency, points, triangles
     raise ValueError("is not a disc or sphere of this script")
 
@@ -89,7 +91,8 @@ def recognised(path):
 def spheroid(axis_ratio, frequency, area=None, diameter=None):
     """Vertices and triangles of a spheroid, numbered as the sphere; its radius."""
     sphere, triangles = shapes.geodesic(frequency)
-    points, triangles = numbered(sphere, shapes.revolved(sphere, shapes.spheroid_height(axis_ratio)), triangles)
+    points, triangles = numbered(
+        sphere, shapes.revolved(sphere, shapes.spheroid_height(axis_ratio)), triangles)
     radius = diameter / 2 if diameter else scale_to(area, points, triangles)
     return points * radius, triangles, radius
 
@@ -123,7 +126,8 @@ def mesh(path, scale=None, area=None, volume=None, size=None):
     points = points - points.mean(axis=0)  # far from 0 the volume drowns in round-off
     if surface_mesh.enclosed_volume(points, triangles) < 0:
         triangles = triangles[:, ::-1]
-        sys.stderr.write(f"{Path(path).name}: the triangles pointed inward; they were turned outward\n")
+        sys.stderr.write(
+            f"{Path(path).name}: the triangles pointed inward; they were turned outward\n")
     surface_mesh.check(points, triangles)
     points -= surface_mesh.centre_of_volume(points, triangles)
     found = surface_mesh.measure(points, triangles)
@@ -156,7 +160,8 @@ def number(kind, lowest, highest=math.inf):
     highest."""
     def convert(text):
         value = kind(text)
-        if not math.isfinite(value) or value < lowest or (kind is float and value == lowest) or value > highest:
+        if (not math.isfinite(value) or value < lowest or (kind is float and value == lowest)
+                or value > highest):
             raise ValueError
         return value
     convert.__name__ = f"{kind.__name__} {'>=' if kind is int else '>'} {lowest}" + (
@@ -242,13 +247,15 @@ def build(args):
         smooth = shapes.spheroid_size(ratio, radius)
     elif args.shape == "sickle":
         sphere, triangles = shapes.geodesic(args.frequency)
-        points = shapes.sickle(sphere, args.length, args.width, args.thickness, math.radians(args.bend))
+        points = shapes.sickle(sphere, args.length, args.width, args.thickness,
+                               math.radians(args.bend))
         points, triangles = numbered(sphere, points, triangles)
         points -= surface_mesh.centre_of_volume(points, triangles)
         smooth = None, math.pi / 6 * args.length * args.width * args.thickness
     else:
         radius = args.radius if args.shape == "sphere" else args.diameter / 2
-        return *template(args.shape, args.frequency, radius, args.match_volume), exact(args.shape, radius)
+        return (*template(args.shape, args.frequency, radius, args.match_volume),
+                exact(args.shape, radius))
     points += 0.0  # no negative zeros
     surface_mesh.check(points, triangles)
     if args.match_volume:
@@ -259,8 +266,9 @@ def build(args):
 def command(args):
     """The command that makes the file, with names of files but not their folders."""
     words = [args.shape] + ([Path(args.file).name] if args.shape == "mesh" else [])
-    for name in ("radius", "diameter", "axis_ratio", "reduced_volume", "prolate", "like", "length", "width",
-                 "thickness", "bend", "scale", "area", "volume", "size", "frequency", "match_volume"):
+    for name in ("radius", "diameter", "axis_ratio", "reduced_volume", "prolate", "like", "length",
+                 "width", "thickness", "bend", "scale", "area", "volume", "size", "frequency",
+                 "match_volume"):
         value = getattr(args, name, None)
         if value is None or value is False:
             continue
@@ -278,7 +286,8 @@ def title(args, smooth):
     if args.shape == "mesh":
         lines = [f"CITATION: {citation}"] if citation else []
     lines.append(f"make_template.py {command(args)}")
-    known = ["{} {:.8g}".format(name, value) for name, value in zip(("area", "volume"), smooth) if value]
+    known = ["{} {:.8g}".format(name, value)
+             for name, value in zip(("area", "volume"), smooth) if value]
     return lines + (["smooth surface: " + ", ".join(known)] if known else [])
 
 

@@ -22,7 +22,8 @@ FORMATS = (".stl", ".ply", ".off", ".vtp")
 
 def _format(path):
     if path.suffix.lower() not in FORMATS:
-        raise ValueError(f"unknown format {path.suffix or '(no suffix)'}; allowed: {', '.join(FORMATS)}")
+        raise ValueError(
+            f"unknown format {path.suffix or '(no suffix)'}; allowed: {', '.join(FORMATS)}")
     return path.suffix.lower()
 
 
@@ -55,7 +56,8 @@ def _filtered(kind, surface, **settings):
 
 def _read_off(path):
     """Polygons of an ascii OFF file; colours at the end of their lines are left out."""
-    rows = [line.split("#")[0].split() for line in path.read_text(encoding="utf-8-sig").splitlines()]
+    rows = [line.split("#")[0].split()
+            for line in path.read_text(encoding="utf-8-sig").splitlines()]
     if not any(rows) or next(filter(None, rows))[0] != "OFF":
         raise ValueError("does not begin with OFF (COFF, NOFF, binary OFF and others are not read)")
     rows = [row for row in ([word for word in row if word != "OFF"] for row in rows) if row]
@@ -114,7 +116,8 @@ def read_surface(path):
     surface = _filtered(vtkCleanPolyData, surface, ToleranceIsAbsolute=True,
                         AbsoluteTolerance=MERGE * surface.GetLength())
     if surface.GetNumberOfPolys() < count:
-        raise ValueError(f"{count - surface.GetNumberOfPolys()} triangles have two corners at one place")
+        raise ValueError(
+            f"{count - surface.GetNumberOfPolys()} triangles have two corners at one place")
     return _arrays(surface)
 
 

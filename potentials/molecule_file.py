@@ -1,4 +1,5 @@
-"""LAMMPS molecule files of cells: Coords are the vertices, Angles the triangles (from 0 in the arrays here)."""
+"""LAMMPS molecule files of cells: Coords are the vertices, Angles the triangles (from 0 in the
+arrays here)."""
 from pathlib import Path
 
 import numpy as np

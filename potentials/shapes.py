@@ -62,7 +62,8 @@ def spheroid_height(axis_ratio):
 
 
 class Profile:
-    """Half a surface of revolution of R = 1 from pole to rim, z = height(r), by the angle phi: r = sin(phi)."""
+    """Half a surface of revolution of R = 1 from pole to rim, z = height(r), by the angle phi:
+    r = sin(phi)."""
 
     def __init__(self, height):
         self.height = height
@@ -85,8 +86,9 @@ def revolved(points, height, caps=None):
     """Map the unit sphere to a surface of revolution of R = 1.
 
     Latitude becomes arc length along the profile, in proportion: of the maps tried (equal area,
-    conformal, same r), the one with the most even edges of the disc (table in README.md). With `caps`, the
-    height of another such surface, each latitude cuts off the same share of the area as there.
+    conformal, same r), the one with the most even edges of the disc (table in README.md). With
+    `caps`, the height of another such surface, each latitude cuts off the same share of the area as
+    there.
     """
     profile = Profile(height)
     rho = np.sqrt((points[:, :2] ** 2).sum(axis=1))
@@ -154,10 +156,12 @@ def axis_ratio_of(reduced, prolate=False):
 def sickle(points, length, width, thickness, bend):
     """An ellipsoid whose long axis is bent to a circular arc of angle `bend`, in the x-y plane.
 
-    The point (s, y, z) of the ellipsoid goes to ((R - y) sin(s/R), R - (R - y) cos(s/R), z) with R = length / bend,
-    which keeps the volume: a stretch of (R - y)/R along the arc averages to 1 over each section.
+    The point (s, y, z) of the ellipsoid goes to ((R - y) sin(s/R), R - (R - y) cos(s/R), z) with
+    R = length / bend, which keeps the volume: a stretch of (R - y)/R along the arc averages to 1
+    over each section.
     """
     y, z, s = (revolved(points, spheroid_height(length / width)) * (width / 2)).T
     radius = length / bend
     angle, distance = s / radius, radius - y
-    return np.column_stack([distance * np.sin(angle), radius - distance * np.cos(angle), z * (thickness / width)])
+    return np.column_stack([distance * np.sin(angle), radius - distance * np.cos(angle),
+                            z * (thickness / width)])

@@ -1,4 +1,5 @@
-"""Closed triangle meshes as arrays: vertices (n, 3) and triangles (m, 3), from 0, right-handed outward."""
+"""Closed triangle meshes as arrays: vertices (n, 3) and triangles (m, 3), from 0, right-handed
+outward."""
 from collections import Counter
 
 import numpy as np
@@ -32,7 +33,8 @@ def hilbert_order(points, bits=16):
 
 
 def renumber(order, triangles):
-    """Vertex order[i] becomes vertex i; each triangle starts from its lowest vertex, the lowest triangle first."""
+    """Vertex order[i] becomes vertex i; each triangle starts from its lowest vertex, the lowest
+    triangle first."""
     rank = np.empty(len(order), dtype=int)
     rank[order] = np.arange(len(order))
     triangles = rank[triangles]
@@ -68,7 +70,8 @@ def pieces(count, triangles):
 
 
 def fans(triangles):
-    """Number of fans of triangles at each vertex: more than one where the surface touches itself."""
+    """Number of fans of triangles at each vertex: more than one where the surface touches
+    itself."""
     count = np.zeros(triangles.max() + 1, dtype=int)
     following = {}
     for a, b, c in triangles.tolist():
@@ -88,11 +91,14 @@ def check(points, triangles):
     def at(vertex):
         return "({:.6g}, {:.6g}, {:.6g})".format(*points[vertex])
 
-    edges = Counter(map(tuple, np.concatenate([triangles[:, [i, (i + 1) % 3]] for i in range(3)]).tolist()))
+    edges = Counter(
+        map(tuple, np.concatenate([triangles[:, [i, (i + 1) % 3]] for i in range(3)]).tolist()))
     both = {edge: n + edges.get(edge[::-1], 0) for edge, n in edges.items()}
     for problem, broken in (
-            ("is not manifold: {} edges belong to more than two triangles", [e for e, n in both.items() if n > 2]),
-            ("is not closed: {} edges belong to one triangle only", [e for e, n in both.items() if n < 2]),
+            ("is not manifold: {} edges belong to more than two triangles",
+             [e for e, n in both.items() if n > 2]),
+            ("is not closed: {} edges belong to one triangle only",
+             [e for e, n in both.items() if n < 2]),
             ("is not consistently oriented: {} edges are run through twice in the same direction",
              [e for e, n in edges.items() if n > 1])):
         if broken:
@@ -101,22 +107,26 @@ def check(points, triangles):
                              f"{at(broken[0][0])} to {at(broken[0][1])}")
     unused = np.setdiff1d(np.arange(len(points)), triangles)
     if len(unused):
-        raise ValueError(f"{len(unused)} vertices belong to no triangle, one of them at {at(unused[0])}")
+        raise ValueError(
+            f"{len(unused)} vertices belong to no triangle, one of them at {at(unused[0])}")
     found = pieces(len(points), triangles)
     if found > 1:
         raise ValueError(f"the surface is in {found} pieces; a cell is one")
     touching = np.flatnonzero(fans(triangles) > 1)
     if len(touching):
-        raise ValueError(f"the surface touches itself at {len(touching)} vertices, one of them {at(touching[0])}")
+        raise ValueError(f"the surface touches itself at {len(touching)} vertices, one of them "
+                         f"{at(touching[0])}")
     euler = len(points) - len(edges) // 2 + len(triangles)
     if euler != 2:
-        raise ValueError(f"the surface has {(2 - euler) // 2} handles (Euler characteristic {euler}, not 2); "
-                         "a cell is a sphere topologically")
+        raise ValueError(
+            f"the surface has {(2 - euler) // 2} handles (Euler characteristic {euler}, not 2); "
+            "a cell is a sphere topologically")
     edge = np.roll(points[triangles], -1, axis=1) - points[triangles]
     area = np.linalg.norm(np.cross(edge[:, 0], edge[:, 1]), axis=1) / 2
     flat = np.flatnonzero(area <= DEGENERATE * (edge ** 2).sum(axis=2).max(axis=1))
     if len(flat):
-        raise ValueError(f"{len(flat)} triangles have no area, one of them at {at(triangles[flat[0], 0])}")
+        raise ValueError(
+            f"{len(flat)} triangles have no area, one of them at {at(triangles[flat[0], 0])}")
     if enclosed_volume(points, triangles) <= 0:
         raise ValueError("the triangles point inward")
 
