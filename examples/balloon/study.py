@@ -20,7 +20,8 @@ from example_study import options, run_cases, run_script  # noqa: E402
 from rbc.tables import read_csv  # noqa: E402
 
 
-BASE = dict(law="neo", stretch=2.5, duration=72, shape="capsule_642", dx=0.125, box=6, timestep=0.04, kernel="peskin4")
+BASE = dict(law="neo", stretch=2.5, duration=72, shape="capsule_642", dx=0.125, box=6,
+            timestep=0.04, kernel="peskin4")
 NAMES = {"neo": "neo-Hookean", "mooney": "Mooney-Rivlin, C2/C1 = 0.1", "skalak": "Skalak, C = 1"}
 
 
@@ -30,7 +31,8 @@ def cases():
     yield "law", "mooney", dict(BASE, law="mooney")
     yield "law", "skalak", dict(BASE, law="skalak", stretch=1.5, timestep=0.006, box=4.5)
     yield "mesh", "162 vertices, dx 1/4", dict(BASE, shape="capsule_162", dx=0.25)
-    yield "mesh", "2562 vertices, dx 1/16", dict(BASE, shape="capsule_2562", dx=0.0625, timestep=0.03)
+    yield ("mesh", "2562 vertices, dx 1/16",
+           dict(BASE, shape="capsule_2562", dx=0.0625, timestep=0.03))
     for name, dx in (("1/6", 1 / 6), ("1/10", 0.1), ("1/12", 1 / 12)):
         yield "dx", f"642 vertices, dx {name}", dict(BASE, dx=dx)
     yield "kernel", "642 vertices, dx 1/8, roma3", dict(BASE, kernel="roma3")
@@ -52,7 +54,8 @@ def reference(law):
     = 0.1."""
     name, column, value = {"neo": ("08a_mooney_rivlin_membrane_closed_forms.csv", "psi", "1"),
                            "skalak": ("08b_skalak_closed_forms.csv", "C", "1")}[law]
-    rows = [row for row in read_csv(os.path.join(HERE, "..", "reference", name)) if row[column] == value]
+    rows = [row for row in read_csv(os.path.join(HERE, "..", "reference", name))
+            if row[column] == value]
     return np.array([[float(row["lambda"]), float(row["pR0_balloon"])] for row in rows]).T
 
 
@@ -61,7 +64,8 @@ def read_pressure(path):
     axis."""
     with open(path) as file:
         lines = file.read().splitlines()
-    after = lambda name: next(n for n, line in enumerate(lines) if line.startswith("ITEM: " + name)) + 1  # noqa: E731
+    after = lambda name: next(n for n, line in enumerate(lines)  # noqa: E731
+                              if line.startswith("ITEM: " + name)) + 1
     low, high = map(float, lines[after("BOX BOUNDS")].split())
     cells = int(lines[after("GRID SIZE")].split()[0])
     values = np.array(lines[after("GRID CELLS"):], dtype=float).reshape(cells, cells, cells)
@@ -79,7 +83,8 @@ def fluid_pressure(path):
 def run(arguments, variables):
     """Rows of stretch, pressure of membrane and fluid; times radius / Gs."""
     with tempfile.TemporaryDirectory() as folder:
-        run_script(arguments, os.path.join(HERE, "in.balloon"), folder, variables).check_returncode()
+        run_script(arguments, os.path.join(HERE, "in.balloon"), folder,
+                   variables).check_returncode()
         return measure(folder)
 
 
@@ -89,7 +94,8 @@ def measure(folder):
     rest = table[0, 1]
     radius = (3 * rest / (4 * np.pi))**(1 / 3)
     return [((row[1] / rest)**(1 / 3), row[2] * radius,
-             fluid_pressure(os.path.join(folder, f"pressure.{int(row[0])}.grid")) * radius) for row in table[1:]]
+             fluid_pressure(os.path.join(folder, f"pressure.{int(row[0])}.grid")) * radius)
+            for row in table[1:]]
 
 
 def law_of(label):
@@ -102,20 +108,23 @@ def report(table):
         exact = closed_form(law_of(label), rows[:, 0])
         errors = 100 * (rows[:, 1:] / exact[:, None] - 1)
         worst = np.abs(errors).max(axis=0)
-        print(f"\n{label}: largest error of the membrane's pressure {worst[0]:.2f} %, of the fluid's {worst[1]:.2f} %")
+        print(f"\n{label}: largest error of the membrane's pressure {worst[0]:.2f} %, of the "
+              f"fluid's {worst[1]:.2f} %")
         for stretch in (1.05, 1.1, 1.2, 1.35, 1.5, 1.75, 2.0, 2.5):
             n = np.argmin(np.abs(rows[:, 0] - stretch))
             if abs(rows[n, 0] - stretch) < 5e-3:
-                print(f"  stretch {rows[n, 0]:.3f}  p {exact[n]:8.4f}  membrane {rows[n, 1]:8.4f} ({errors[n, 0]:+.2f} %)"
-                      f"  fluid {rows[n, 2]:8.4f} ({errors[n, 1]:+.2f} %)")
+                print(f"  stretch {rows[n, 0]:.3f}  p {exact[n]:8.4f}  membrane {rows[n, 1]:8.4f} "
+                      f"({errors[n, 0]:+.2f} %)  fluid {rows[n, 2]:8.4f} ({errors[n, 1]:+.2f} %)")
     for law in ("neo", "skalak"):
         stretch, pressure = reference(law)
-        print(f"\n{law}: closed form and table differ by {np.abs(closed_form(law, stretch) / pressure - 1).max():.1e}")
+        print(f"\n{law}: closed form and table differ by "
+              f"{np.abs(closed_form(law, stretch) / pressure - 1).max():.1e}")
     if "neo" in table:
         rows = table["neo"]
         top = np.argmax(rows[:, 1]) + np.arange(-1, 2)
         a, b, c = np.polyfit(rows[top, 0], rows[top, 1], 2)
-        print(f"\nlimit point of the neo-Hookean balloon: stretch {-b / 2 / a:.4f}, p {c - b * b / 4 / a:.4f}; "
+        print(f"\nlimit point of the neo-Hookean balloon: stretch {-b / 2 / a:.4f}, p "
+              f"{c - b * b / 4 / a:.4f}; "
               f"exact {7**(1 / 6):.4f}, {closed_form('neo', 7**(1 / 6)):.4f}")
 
 
@@ -136,20 +145,26 @@ def plot(table, path):
         left.plot(*reference(law), "k.", ms=4)
     left.plot([], [], "k.", ms=4, label="closed form, tabulated")
     limit = 7**(1 / 6)
-    left.annotate("limit point", (limit, closed_form("neo", limit)), (1.5, 0.75), arrowprops=dict(arrowstyle="->"))
+    left.annotate("limit point", (limit, closed_form("neo", limit)), (1.5, 0.75),
+                  arrowprops=dict(arrowstyle="->"))
     left.plot([], [], "o", color="0.4", mfc="none", label="membrane (virial)")
     left.plot([], [], "+", color="0.4", label="fluid, inside minus outside")
-    left.set(xlabel="radius over radius at rest", ylabel="pressure × radius at rest / G$_s$", xlim=(1, 2.5), ylim=(0, 2))
+    left.set(xlabel="radius over radius at rest", ylabel="pressure × radius at rest / G$_s$",
+             xlim=(1, 2.5), ylim=(0, 2))
     left.legend(frameon=False, fontsize=8, loc="lower right")
-    names = {"162 vertices, dx 1/4": "162, dx 1/4", "neo": "642, dx 1/8", "2562 vertices, dx 1/16": "2562, dx 1/16"}
+    names = {"162 vertices, dx 1/4": "162, dx 1/4", "neo": "642, dx 1/8",
+             "2562 vertices, dx 1/16": "2562, dx 1/16"}
     for (label, name), color in zip(names.items(), ("#e09a9f", "#b3202a", "#5a1015")):
         if label in table:
             rows = table[label]
             error = 100 * (rows[:, 1:] / closed_form("neo", rows[:, :1]) - 1)
-            right.plot(rows[:, 0], error[:, 0], "o-", color=color, ms=3, lw=1, label=f"membrane, {name}")
-            right.plot(rows[:, 0], error[:, 1], "+--", color=color, ms=4, lw=1, label=f"fluid, {name}")
+            right.plot(rows[:, 0], error[:, 0], "o-", color=color, ms=3, lw=1,
+                       label=f"membrane, {name}")
+            right.plot(rows[:, 0], error[:, 1], "+--", color=color, ms=4, lw=1,
+                       label=f"fluid, {name}")
     right.axhline(0, color="k", lw=0.8)
-    right.set(xlabel="radius over radius at rest", ylabel="error of the neo-Hookean pressure / %", xlim=(1, 2.5))
+    right.set(xlabel="radius over radius at rest", ylabel="error of the neo-Hookean pressure / %",
+              xlim=(1, 2.5))
     right.legend(frameon=False, fontsize=8)
     figure.tight_layout()
     figure.savefig(path, dpi=100)
@@ -157,7 +172,8 @@ def plot(table, path):
 
 def main():
     arguments = command_line.parse(options(__doc__, (series for series, *_ in cases())), HERE)
-    table = run_cases(arguments, arguments.output / "balloon.csv", ("stretch", "membrane", "fluid"), cases(), run)
+    table = run_cases(arguments, arguments.output / "balloon.csv", ("stretch", "membrane", "fluid"),
+                      cases(), run)
     report(table)
     plot(table, arguments.output / "balloon.png")
 

@@ -19,7 +19,8 @@ from blood_study import COLUMNS, measure_viscosity  # noqa: E402
 KERNELS = "roma3", "peskin4"
 RATES = 100, 10    # 1/s
 SMOOTH = "no", "yes"
-RESOLUTIONS = (("rbc_162", 0.8), ("rbc_162", 0.65), ("rbc_362", 0.5), ("rbc_642", 0.4), ("rbc_2562", 0.25))
+RESOLUTIONS = (("rbc_162", 0.8), ("rbc_162", 0.65), ("rbc_362", 0.5), ("rbc_642", 0.4),
+               ("rbc_2562", 0.25))
 SMALL_BOX = {"length": 14, "gap": 12, "hematocrit": 0.4, "strain": 5}
 
 
@@ -51,7 +52,8 @@ def entry(table, kernel, resolution, rate, smooth):
 
 def print_table(table):
     columns = list(itertools.product(KERNELS, RATES))
-    print("| vertices, dx (µm) | *smooth* |", *(f"*{kernel}*, {rate} /s |" for kernel, rate in columns))
+    print("| vertices, dx (µm) | *smooth* |",
+          *(f"*{kernel}*, {rate} /s |" for kernel, rate in columns))
     print("|---|---|" + "---|" * len(columns))
     for (shape, dx), smooth in itertools.product(RESOLUTIONS, SMOOTH):
         print(f"| {shape.removeprefix('rbc_')}, {dx:g} | *{smooth}* |",
@@ -61,7 +63,8 @@ def print_table(table):
 def main():
     series = [shape for shape, _ in RESOLUTIONS]
     arguments = command_line.parse(example_study.options(__doc__, series), HERE)
-    print_table(example_study.run_cases(arguments, arguments.output / "convergence.csv", COLUMNS, cases(), measure))
+    print_table(example_study.run_cases(arguments, arguments.output / "convergence.csv", COLUMNS,
+                                        cases(), measure))
 
 
 if __name__ == "__main__":

@@ -28,7 +28,8 @@ RATES = 10, 100, 1000    # 1/s
 STRAIN = 5
 COLUMNS = "strain", "viscosity", "volume", "again"
 
-MESHES = {"rbc_162": 0.65, "rbc_362": 0.5, "rbc_642": 0.4}    # fluid spacings, um: edges are 1.2 to 1.5 of them
+# fluid spacings, um: edges are 1.2 to 1.5 of them
+MESHES = {"rbc_162": 0.65, "rbc_362": 0.5, "rbc_642": 0.4}
 LENGTHS = {0.2: 18, 0.3: 16, 0.4: 14, 0.45: 14}               # of boxes with 8 to 12 cells, um
 GAP = 12
 MESH_COLUMNS = "through", *COLUMNS, "wrong", "warned"
@@ -54,7 +55,8 @@ def warnings(printed):
 
 def print_why(done):
     """A run that stopped: what it had warned of, and its error."""
-    print(*warnings(done.stdout), *re.findall(r"^ERROR.*", done.stdout, re.MULTILINE), sep="\n", flush=True)
+    print(*warnings(done.stdout), *re.findall(r"^ERROR.*", done.stdout, re.MULTILINE), sep="\n",
+          flush=True)
 
 
 def run_blood(arguments, variables):
@@ -63,7 +65,8 @@ def run_blood(arguments, variables):
         done = example_study.run_script(arguments, HERE / "in.blood", folder, variables)
         table = read_table(Path(folder) / "blood.dat")
     lines = log_lines(done.stdout)
-    found = {"through": not done.returncode, **dict.fromkeys(("viscosity", "peak", "late"), float("nan")),
+    found = {"through": not done.returncode,
+             **dict.fromkeys(("viscosity", "peak", "late"), float("nan")),
              "strain": table["v_sheared"][-1] if len(table["v_sheared"]) else 0,
              "volume": max(abs(line[7] / lines[0][7] - 1) for line in lines),
              "again": lines[-1][9], "wrong": lines[-1][10], "warned": bool(warnings(done.stdout))}
@@ -99,11 +102,14 @@ def plain_scene(shape, dx, kernel, hematocrit, rate, length, lines=""):
     scene = (HERE.parent / "suspension-shear" / "in.plain").read_text(encoding="utf-8")
     speed = rate * 1e-6 * GAP / 2
     for pattern, new in (
-            (r"\.\./\.\./potentials/rbc_642", f"{example_study.POTENTIALS}/{shape}"), (r"dx 0\.5", f"dx {dx}"),
-            (r"rbc/ib flow .*", f"rbc/ib flow kernel {kernel}"), (r"zlo -0\.0012", f"zlo -{speed}"), (r"zhi 0\.0012", f"zhi {speed}"),
+            (r"\.\./\.\./potentials/rbc_642", f"{example_study.POTENTIALS}/{shape}"),
+            (r"dx 0\.5", f"dx {dx}"),
+            (r"rbc/ib flow .*", f"rbc/ib flow kernel {kernel}"), (r"zlo -0\.0012", f"zlo -{speed}"),
+            (r"zhi 0\.0012", f"zhi {speed}"),
             (r"block 0 24 0 24 0 24", f"block 0 {length} 0 {length} 0 {GAP}"),
             (r"number 27 (.*) overlap 0\.5", rf"hematocrit {hematocrit} \1 overlap 0.1"),
-            (r"rbc/vtk 250", "rbc/vtk 1000000"), (r"timestep +200", f"timestep {min(0.02 / (rate * 1e-6), 1000)}"),
+            (r"rbc/vtk 250", "rbc/vtk 1000000"),
+            (r"timestep +200", f"timestep {min(0.02 / (rate * 1e-6), 1000)}"),
             (r"f_mem f_flow\[1\]", "f_mem f_ib[8] f_ib[10] f_flow[1]"), (r"thermo +50", "thermo 1"),
             (r"run +500", f"{lines}\nrun $(ceil({STRAIN}/({rate}*1e-6*dt)))")):
         scene, found = re.subn(pattern, new, scene)
@@ -120,15 +126,18 @@ def measure_readme(arguments, variables):
         done = example_study.run_script(arguments, script, folder, {})
     if done.returncode:
         print_why(done)
-    lines = [line.split() for line in done.stdout.splitlines() if re.match(r"^ +\d+( +\S+){7} *$", line)]
+    lines = [line.split()
+             for line in done.stdout.splitlines() if re.match(r"^ +\d+( +\S+){7} *$", line)]
     last = [float(word) for word in lines[-1]]
-    return [[not done.returncode, last[1] * variables["rate"] * 1e-6, last[3], last[4], bool(warnings(done.stdout))]]
+    return [[not done.returncode, last[1] * variables["rate"] * 1e-6, last[3], last[4],
+             bool(warnings(done.stdout))]]
 
 
 def cases():
     for kernel, hematocrit, rate in itertools.product(KERNELS, HEMATOCRITS, RATES):
-        yield kernel, f"{kernel} {hematocrit:g} {rate}", {"kernel": kernel, "hematocrit": hematocrit, "rate": rate,
-                                                          "strain": STRAIN}
+        yield (kernel, f"{kernel} {hematocrit:g} {rate}",
+               {"kernel": kernel, "hematocrit": hematocrit, "rate": rate,
+                "strain": STRAIN})
 
 
 def scene_cases():
@@ -137,7 +146,8 @@ def scene_cases():
 
 
 def mesh_cases():
-    for (mesh, dx), kernel, hematocrit, rate in itertools.product(MESHES.items(), KERNELS, HEMATOCRITS, RATES):
+    for (mesh, dx), kernel, hematocrit, rate in itertools.product(MESHES.items(), KERNELS,
+                                                                  HEMATOCRITS, RATES):
         yield mesh, f"{mesh} {kernel} {hematocrit:g} {rate}", {
             "shape": mesh, "dx": dx, "kernel": kernel, "hematocrit": hematocrit, "rate": rate,
             "length": LENGTHS[hematocrit]}
@@ -146,7 +156,8 @@ def mesh_cases():
 def blood_cases():
     """With steps of one length."""
     for mesh, label, variables in mesh_cases():
-        yield mesh, label, {**variables, "gap": GAP, "strain": STRAIN, "error": 0, "frames": 1000000}
+        yield (mesh, label,
+               {**variables, "gap": GAP, "strain": STRAIN, "error": 0, "frames": 1000000})
 
 
 def readme_cases():
@@ -160,11 +171,13 @@ def readme_cases():
 
 
 def main():
-    arguments = command_line.parse(example_study.options(__doc__, [*KERNELS, "scene", *MESHES, "readme"]), HERE)
+    arguments = command_line.parse(
+        example_study.options(__doc__, [*KERNELS, "scene", *MESHES, "readme"]), HERE)
     for name, columns, runs, run in (("blood.csv", COLUMNS, cases(), measure),
                                      ("scene.csv", SCENE_COLUMNS, scene_cases(), measure_scene),
                                      ("meshes.csv", MESH_COLUMNS, blood_cases(), measure_mesh),
-                                     ("readme.csv", README_COLUMNS, readme_cases(), measure_readme)):
+                                     ("readme.csv", README_COLUMNS, readme_cases(),
+                                      measure_readme)):
         table = example_study.run_cases(arguments, arguments.output / name, columns, runs, run)
         for label, rows in table.items():
             print(f"{label:38}", *(f"{value:10.4g}" for value in rows[-1]))

@@ -56,7 +56,8 @@ def cases():
 def read_dump(path):
     """Box, and rows of a LAMMPS dump."""
     lines = Path(path).read_text(encoding="ascii").splitlines()
-    first = next(n for n, line in enumerate(lines) if line.startswith(("ITEM: ATOMS", "ITEM: GRID CELLS"))) + 1
+    first = next(n for n, line in enumerate(lines)
+                 if line.startswith(("ITEM: ATOMS", "ITEM: GRID CELLS"))) + 1
     bounds = next(n for n, line in enumerate(lines) if line.startswith("ITEM: BOX BOUNDS")) + 1
     box = np.array([line.split() for line in lines[bounds:bounds + 3]], dtype=float)
     return box, np.array([line.split() for line in lines[first:]], dtype=float)
@@ -109,7 +110,8 @@ def run(arguments, variables):
         if done.returncode:
             sys.exit(done.stdout[-600:])
         if variables["Ca"] != STIFF["Ca"]:
-            keep_outline(arguments.output / OUTLINES, label(variables), Path(folder) / "capsule.dump")
+            keep_outline(arguments.output / OUTLINES, label(variables),
+                         Path(folder) / "capsule.dump")
         if variables == BASE:
             keep_flow(arguments.output / FLOW, Path(folder))
         return [measure(folder, variables)]
@@ -118,7 +120,8 @@ def run(arguments, variables):
 def keep_flow(path, folder, tube=2.0):
     velocity, x, y = slice_of_flow(folder / "flow.dump", tube)
     ends = read_dump(folder / "capsule.dump")[1][:, 1] / (2 * tube)
-    np.savez_compressed(path, velocity=velocity.astype(np.float32), x=x, y=y, centre=(ends.min() + ends.max()) / 2)
+    np.savez_compressed(path, velocity=velocity.astype(np.float32), x=x, y=y,
+                        centre=(ends.min() + ends.max()) / 2)
 
 
 def keep_outline(path, name, dump):
@@ -151,14 +154,17 @@ def draw_outline(folder):
     period = flow["x"][0] + flow["x"][-1]
     along = (flow["x"] - flow["centre"] + period / 2) % period - period / 2
     order = np.argsort(along)
-    shade = top.contourf(along[order], flow["y"], flow["velocity"][:, order], np.linspace(0, 2, 21), cmap="viridis")
+    shade = top.contourf(along[order], flow["y"], flow["velocity"][:, order], np.linspace(0, 2, 21),
+                         cmap="viridis")
     figure.colorbar(shade, ax=top, label="velocity / mean", ticks=[0, 0.5, 1, 1.5, 2])
     top.plot(np.r_[x, x[::-1]] / 2, np.r_[r, -r[::-1]] / 2, "w", lw=1.5)
     top.set(aspect="equal", xlim=(-1, 1), ylim=(-0.5, 0.5), xlabel="x / D", ylabel="y / D",
             title="(a) streamwise velocity in a plane through the axis")
     angle = np.linspace(0, 2 * np.pi, 200)
-    bottom.plot(BASE["ratio"] / 2 * np.cos(angle), BASE["ratio"] / 2 * np.sin(angle), "--", color="0.6", label="at rest")
-    bottom.plot(np.r_[x, x[::-1]] / 2, np.r_[r, -r[::-1]] / 2, color="#b3202a", label="carried at Ca = 0.015")
+    bottom.plot(BASE["ratio"] / 2 * np.cos(angle), BASE["ratio"] / 2 * np.sin(angle), "--",
+                color="0.6", label="at rest")
+    bottom.plot(np.r_[x, x[::-1]] / 2, np.r_[r, -r[::-1]] / 2, color="#b3202a",
+                label="carried at Ca = 0.015")
     for wall in (-0.5, 0.5):
         bottom.axhline(wall, color="k", lw=2)
     bottom.annotate("", (0.72, 0), (0.52, 0), arrowprops=dict(arrowstyle="->"))
@@ -178,10 +184,12 @@ def draw_study(table, folder):
     (left, right), (sizes, numbers) = axes
     left.plot(*zip(*RIGID.items()), "k-", label="rigid sphere, exact")
     for cells, mark in zip(FINER, "v^s"):
-        rows = [table[label({**BASE, **STIFF, "ratio": ratio, "cells": cells})][0] for ratio in SIZES]
-        left.plot(SIZES, [row[4] for row in rows], mark, mfc="none", color="#2a6fb0", label=f"Ca = 0.001, R / dx = {cells}")
-    left.plot(SIZES, [table[label(dict(BASE, ratio=ratio))][0][4] for ratio in SIZES], "o-", color="#b3202a",
-              label="Ca = 0.015, R / dx = 20")
+        rows = [table[label({**BASE, **STIFF, "ratio": ratio, "cells": cells})][0]
+                for ratio in SIZES]
+        left.plot(SIZES, [row[4] for row in rows], mark, mfc="none", color="#2a6fb0",
+                  label=f"Ca = 0.001, R / dx = {cells}")
+    left.plot(SIZES, [table[label(dict(BASE, ratio=ratio))][0][4] for ratio in SIZES], "o-",
+              color="#b3202a", label="Ca = 0.015, R / dx = 20")
     left.set(xlabel="a / R", ylabel="speed / mean velocity")
     rows = [table[label(softer(number))][0] for number in NUMBERS]
     right.semilogx(NUMBERS, [row[5] for row in rows], "o-", label="length / 2a")
@@ -193,11 +201,13 @@ def draw_study(table, folder):
                                 (numbers, [softer(number) for number in NUMBERS], "Ca")):
         for n, variables in enumerate(several):
             x, r = shapes[label(variables)]
-            axis.plot(np.r_[x, x[::-1]], np.r_[r, -r[::-1]], color=plt.cm.plasma(0.85 * n / (len(several) - 1)),
+            axis.plot(np.r_[x, x[::-1]], np.r_[r, -r[::-1]],
+                      color=plt.cm.plasma(0.85 * n / (len(several) - 1)),
                       label=f"{'a/R' if name == 'ratio' else name} = {variables[name]:g}")
         for wall in (-1, 1):
             axis.axhline(wall, color="k", lw=2)
-        axis.set(aspect="equal", xlabel="x / R (flow to the right)", ylabel="y / R", xlim=(-1.5, 1.5), ylim=(-1.1, 1.1))
+        axis.set(aspect="equal", xlabel="x / R (flow to the right)", ylabel="y / R",
+                 xlim=(-1.5, 1.5), ylim=(-1.1, 1.1))
     for axis in axes.flat:
         axis.legend(frameon=False, fontsize=8)
     figure.tight_layout()
@@ -206,11 +216,15 @@ def draw_study(table, folder):
 
 def report(table):
     for name, row in table.items():
-        print(f"{name}: U {row[0][4]:.4f}, length {row[0][5]:.4f}, width {row[0][6]:.4f}, pressure {row[0][7]:.4f}")
+        print(f"{name}: U {row[0][4]:.4f}, length {row[0][5]:.4f}, width {row[0][6]:.4f}, pressure "
+              f"{row[0][7]:.4f}")
     for ratio, exact in RIGID.items():
-        speeds = [table[label({**BASE, **STIFF, "ratio": ratio, "cells": cells})][0][4] for cells in FINER]
-        best = (FINER[-1]**2 * speeds[-1] - FINER[-2]**2 * speeds[-2]) / (FINER[-1]**2 - FINER[-2]**2)
-        print(f"a/R {ratio}: exact {exact:.4f}, errors", *(f"{100 * (speed / exact - 1):+.2f}" for speed in speeds),
+        speeds = [table[label({**BASE, **STIFF, "ratio": ratio, "cells": cells})][0][4]
+                  for cells in FINER]
+        best = ((FINER[-1]**2 * speeds[-1] - FINER[-2]**2 * speeds[-2]) /
+                (FINER[-1]**2 - FINER[-2]**2))
+        print(f"a/R {ratio}: exact {exact:.4f}, errors",
+              *(f"{100 * (speed / exact - 1):+.2f}" for speed in speeds),
               f"%, extrapolated in dx² {100 * (best / exact - 1):+.2f} %")
 
 

@@ -55,7 +55,8 @@ def run(arguments, variables):
     """Times (strain), D(t) and the loop time of one run."""
     every = variables["strain"] / 40 if variables["strain"] < 1 else 0.05
     with tempfile.TemporaryDirectory() as folder:
-        done = run_script(arguments, os.path.join(HERE, "in.capsule-shear"), folder, dict(variables, every=every))
+        done = run_script(arguments, os.path.join(HERE, "in.capsule-shear"), folder,
+                          dict(variables, every=every))
         done.check_returncode()
         history = read_ave_time(os.path.join(folder, "cell.dat"))
     loop = float(re.search(r"Loop time of (\S+)", done.stdout).group(1))
@@ -65,7 +66,8 @@ def run(arguments, variables):
 def references(ca):
     """{source: (t, D)} of the transients at a capillary number on G_s."""
     series = {}
-    with open(os.path.join(HERE, "..", "reference", "02b_capsule_shear_NH_transient_D.csv")) as file:
+    with open(
+            os.path.join(HERE, "..", "reference", "02b_capsule_shear_NH_transient_D.csv")) as file:
         rows = [line.strip() for line in file if not line.startswith("#")]
     for row in rows[1:]:
         ca_e, rest = row.split(",", 1)
@@ -128,8 +130,10 @@ def box_factor(rows, ca, time):
 
 def dx_factor(rows, ca, time):
     """D at dx -> 0 over D at the spacing of the base runs."""
-    points = [(float(row["dx"]), at(row, time)) for row in select(rows, "dx", Ca=ca, kernel="roma3")]
-    return to_zero_dx(points) / at(select(rows, "dx", Ca=ca, kernel="roma3", dx=BASE["dx"])[0], time)
+    points = [(float(row["dx"]), at(row, time))
+              for row in select(rows, "dx", Ca=ca, kernel="roma3")]
+    return to_zero_dx(points) / at(select(rows, "dx", Ca=ca, kernel="roma3", dx=BASE["dx"])[0],
+                                   time)
 
 
 def report_slopes(rows):
@@ -138,9 +142,11 @@ def report_slopes(rows):
     factor = to_infinite_box(boxes) / dict(boxes)[8.0]
     for kernel in ("roma3", "peskin4"):
         runs = select(rows, "slope", kernel=kernel)
-        limit = to_zero_dx([(float(r["dx"]), float(r["D_end"]) / float(r["Ca"])) for r in runs]) * factor
+        limit = (to_zero_dx([(float(r["dx"]), float(r["D_end"]) / float(r["Ca"])) for r in runs]) *
+                 factor)
         finest = min(runs, key=lambda r: float(r["dx"]))
-        print(f"  {kernel:<8} finest dx in a box of 8: {float(finest['D_end']) / float(finest['Ca']):.4f}; "
+        print(f"  {kernel:<8} finest dx in a box of 8: "
+              f"{float(finest['D_end']) / float(finest['Ca']):.4f}; "
               f"dx -> 0, infinite box: {limit:.4f} ({100 * (limit * 12 / 25 - 1):+.1f}%)")
 
 
@@ -158,7 +164,8 @@ def report_transients(rows):
                     if name.startswith("extra"):
                         late = min(time, COARSE["strain"])
                         factor = box_factor(rows, ca, late) * dx_factor(rows, ca, late)
-                    errors.append(f"{100 * (factor * at(row, time) / values[match][0] - 1):+6.1f}%" if match.any()
+                    errors.append(f"{100 * (factor * at(row, time) / values[match][0] - 1):+6.1f}%"
+                                  if match.any()
                                   else "      -")
                 print(f"{row['Ca']:>7} {source:<28} " + " ".join(errors))
 
@@ -167,14 +174,16 @@ def report(rows):
     """The tables of the README."""
     report_slopes(rows)
     report_transients(rows)
-    for series, column in (("dx", "dx"), ("vertices", "shape"), ("timestep", "timestep"), ("box", "length"),
+    for series, column in (("dx", "dx"), ("vertices", "shape"), ("timestep", "timestep"),
+                           ("box", "length"),
                            ("slope", "dx"), ("slope-box", "length")):
         print(f"\n{series}: D at strain 0.5, 1, 1.5, 2 (or at the end), run time of 1 task")
         for row in select(rows, series):
             t, d = samples_of(row)
-            values = " ".join(f"{at(row, x):.5f}" for x in (0.5, 1.0, 1.5, 2.0) if x <= t[-1] + 1e-9)
-            print(f"  Ca {row['Ca']:>6} {row['kernel']:<8} {column} {row[column]:<12} {values or row['D_end']}"
-                  f"  {float(row['loop_seconds']):6.1f} s")
+            values = " ".join(f"{at(row, x):.5f}"
+                              for x in (0.5, 1.0, 1.5, 2.0) if x <= t[-1] + 1e-9)
+            print(f"  Ca {row['Ca']:>6} {row['kernel']:<8} {column} {row[column]:<12} "
+                  f"{values or row['D_end']}  {float(row['loop_seconds']):6.1f} s")
 
 
 def plot(rows, path):
@@ -189,7 +198,8 @@ def plot(rows, path):
             t, d = samples_of(row)
             line, = left.plot(t, d, label=f"Ca = {row['Ca']}")
             for source, (rt, rd) in references(float(row["Ca"])).items():
-                left.plot(rt, rd, markers.get(source, "."), color=line.get_color(), mfc="none", ms=5)
+                left.plot(rt, rd, markers.get(source, "."), color=line.get_color(), mfc="none",
+                          ms=5)
     left.set(xlabel="shear rate × time", ylabel="Taylor deformation D", xlim=(0, 5), ylim=(0, 0.75))
     for source, marker in markers.items():
         left.plot([], [], marker, color="0.4", mfc="none", ms=5, label=source)

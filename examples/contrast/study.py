@@ -183,7 +183,8 @@ def extrapolated(table, series, inside, time):
     """D and inclination at dx -> 0, by the two finest as of second order, in an infinite box."""
     coarse, fine = spacings(table, series, inside)[-2:]
     values = [at(table, label(series, inside, cells), time) for cells in (coarse, fine)]
-    return extrapolate(1 / fine, values[1], 1 / coarse, values[0], 2) + box_change(table, series, inside, time)
+    return (extrapolate(1 / fine, values[1], 1 / coarse, values[0], 2) +
+            box_change(table, series, inside, time))
 
 
 def exact_at(inside, time, law="neo-Hookean"):

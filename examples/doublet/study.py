@@ -41,7 +41,8 @@ def contact_zone(x, cell, in_contact):
     points = x[in_contact]
     centre = points.mean(axis=0)
     directions = np.linalg.svd(points - centre, full_matrices=False)[2]
-    normal = directions[2] * np.sign(directions[2] @ (x[cell == 2].mean(axis=0) - x[cell == 1].mean(axis=0)))
+    normal = directions[2] * np.sign(
+        directions[2] @ (x[cell == 2].mean(axis=0) - x[cell == 1].mean(axis=0)))
     z = (points - centre) @ normal
     best = 0, directions[0]
     for angle in np.radians(range(0, 180, 3)):
@@ -72,8 +73,10 @@ def section(x, triangles, centre, along, normal):
 
 def measure(lmp, shape, sigma):
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([lmp, "-in", HERE / "in.doublet", "-log", "none", "-screen", "none", "-var", "sigma", str(sigma),
-                        "-var", "shape", shape, "-var", "templates", ROOT / "potentials"], cwd=folder, check=True)
+        subprocess.run([lmp, "-in", HERE / "in.doublet", "-log", "none", "-screen", "none", "-var",
+                        "sigma", str(sigma),
+                        "-var", "shape", shape, "-var", "templates", ROOT / "potentials"],
+                       cwd=folder, check=True)
         row = np.loadtxt(Path(folder) / "doublet.dat")
         atoms = last_frame(Path(folder) / "doublet.dump")
     x, in_contact = atoms[:, 1:4], atoms[:, 4] != 0
@@ -82,7 +85,8 @@ def measure(lmp, shape, sigma):
     segments = []
     for cell in (1, 2):
         own = x[atoms[:, 0] == cell]
-        segments += [(sigma, cell, *ends) for ends in section(own, triangles, centre, along, normal)]
+        segments += [(sigma, cell, *ends)
+                     for ends in section(own, triangles, centre, along, normal)]
     return [*row, amplitude], segments
 
 
@@ -105,7 +109,8 @@ def draw(table, segments, path):
     left.semilogx(1e3 * sigma, -adhesion / sigma, "s--", label="energy of adhesion over σ / µm²")
     right = figure.add_subplot(grid[1, 3:])
     right.semilogx(1e3 * sigma, amplitude, "o-C2", label="amplitude of the S / µm")
-    right.semilogx(1e3 * sigma, membrane / -adhesion, "s--C4", label="energy of the membranes over that of adhesion")
+    right.semilogx(1e3 * sigma, membrane / -adhesion, "s--C4",
+                   label="energy of the membranes over that of adhesion")
     for axis in (left, right):
         axis.set_xlabel("work of adhesion σ / (µJ/m²)")
         axis.set_ylim(bottom=0)
@@ -137,13 +142,15 @@ def main():
         table, segments = [], []
         for sigma in SIGMAS:
             row, cut = measure(options.lmp.resolve(), options.shape, sigma)
-            print(f"sigma {sigma:g}: contact {row[1]:.2f} um^2, amplitude of the S {row[5]:.3f} um, speed {row[4]:.2g}",
-                  flush=True)
+            print(f"sigma {sigma:g}: contact {row[1]:.2f} um^2, amplitude of the S {row[5]:.3f} "
+                  f"um, speed {row[4]:.2g}", flush=True)
             table.append(row)
             segments += cut if sigma in DRAWN else []
-        write(options.output / "doublet.csv", "sigma,contact_area,adhesion_energy,membrane_energy,speed,amplitude", table)
+        write(options.output / "doublet.csv",
+              "sigma,contact_area,adhesion_energy,membrane_energy,speed,amplitude", table)
         write(options.output / "shapes.csv", "sigma,cell,x0,z0,x1,z1", segments)
-    tables = (read(command_line.kept(options.output, HERE, name)) for name in ("doublet.csv", "shapes.csv"))
+    tables = (read(command_line.kept(options.output, HERE, name))
+              for name in ("doublet.csv", "shapes.csv"))
     draw(*tables, options.output / "doublet.png")
 
 

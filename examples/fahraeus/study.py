@@ -22,21 +22,23 @@ from rbc.snapshots import surfaces  # noqa: E402
 SCRIPT = HERE / "in.fahraeus"
 TUBES = {    # variables of in.fahraeus
     "d10h30": {"diameter": 10, "hematocrit": 0.3, "length": 15.5, "turns": 36},
-    "d10h45": {"diameter": 10, "hematocrit": 0.45, "length": 15.5, "turns": 36, "seed": 1},    # six cells fit in
+    # six cells fit in
+    "d10h45": {"diameter": 10, "hematocrit": 0.45, "length": 15.5, "turns": 36, "seed": 1},
     "d20h30": {"diameter": 20, "hematocrit": 0.3, "length": 10.5},
     "d20h45": {"diameter": 20, "hematocrit": 0.45, "length": 10.5},
     "d40h30": {"diameter": 40, "hematocrit": 0.3, "length": 10.5},
     "d40h45": {"diameter": 40, "hematocrit": 0.45, "length": 10.5},
 }
-MESHES = {"coarsest": {"shape": "rbc_162", "dx": 0.8, "range": 0.8}, "coarse": {"shape": "rbc_162", "dx": 0.65},
+MESHES = {"coarsest": {"shape": "rbc_162", "dx": 0.8, "range": 0.8},
+          "coarse": {"shape": "rbc_162", "dx": 0.65},
           "fine": {"shape": "rbc_362", "dx": 0.5}}
 INSIDE = 7.4825          # five times the viscosity of plasma, mPa s
 CASES = {**{f"{tube}-{mesh}": {**TUBES[tube], **MESHES[mesh]} for tube in TUBES for mesh in MESHES
             if mesh == "coarse" or mesh == ("coarsest" if tube == "d40h30" else "fine")},
          "d20h45-inside": {**TUBES["d20h45"], **MESHES["coarse"], "inside": INSIDE}}
 RATE = 50e-6             # mean velocity over diameter, 1/us
-COLORS = {"d10h30": "#8cbf6f", "d10h45": "#33691e", "d20h30": "#e06666", "d20h45": "#8b1a1a", "d40h30": "#6fa8dc",
-          "d40h45": "#1c4587"}
+COLORS = {"d10h30": "#8cbf6f", "d10h45": "#33691e", "d20h30": "#e06666", "d20h45": "#8b1a1a",
+          "d40h30": "#6fa8dc", "d40h45": "#1c4587"}
 WIDTHS = {"coarsest": 0.5, "coarse": 1, "fine": 2}    # of lines
 PICTURES = "d10h45-fine", "d20h45-fine", "d40h45-coarse"
 
@@ -91,7 +93,8 @@ def layers(folder, diameter, length, dx):
         points = vtk_to_numpy(cells.GetPoints().GetData()).astype(float)
         corners = points[vtk_to_numpy(cells.GetPolys().GetConnectivityArray()).reshape(-1, 3)]
         time = cells.GetFieldData().GetArray("TimeValue").GetValue(0)
-        rows.append((time, cell_free_layer(np.concatenate([points, corners.mean(axis=1)]), axis, diameter, length)))
+        rows.append((time, cell_free_layer(np.concatenate([points, corners.mean(axis=1)]), axis,
+                                           diameter, length)))
     return np.array(rows).T
 
 
@@ -106,12 +109,14 @@ def measure(folder, plasma, diameter=20, length=10.5, dx=0.65, shape="rbc_162", 
     time, layer = layers(folder, diameter, length, dx)
     case = {"turned": turned, "viscosity": viscosity, "ratio": ratio, "layer": (time * RATE, layer)}
     thirds = {"last": turned > 2 / 3 * turned[-1], "before": abs(turned / turned[-1] - 0.5) < 1 / 6}
-    row = {"diameter": diameter, "length": length, "vertices": int(shape[4:]), "dx": dx, "cells": volumes.shape[1], "turns": turned[-1], "tube": real_tube}
+    row = {"diameter": diameter, "length": length, "vertices": int(shape[4:]), "dx": dx,
+           "cells": volumes.shape[1], "turns": turned[-1], "tube": real_tube}
     for name, chosen in thirds.items():
         row[f"viscosity_{name}"] = viscosity[chosen].mean()
         row[f"ratio_{name}"] = ratio[chosen].mean()
         row[f"layer_{name}"] = np.interp(turned[chosen], time * RATE, layer).mean()
-    row["solid_layer"] = diameter / 2 * (1 - (1 - 1 / row["viscosity_last"])**0.25)    # of a solid core, same viscosity
+    # of a solid core, same viscosity
+    row["solid_layer"] = diameter / 2 * (1 - (1 - 1 / row["viscosity_last"])**0.25)
     row["discharge"] = real_tube / row["ratio_last"]
     row["pries_discharge"] = pries_discharge(diameter, real_tube)
     row["pries_ratio"] = real_tube / row["pries_discharge"]
@@ -134,17 +139,20 @@ def draw(cases, rows, pictures, path):
         if mesh not in MESHES:
             continue
         label = f"{row['diameter']:g} µm, {100 * TUBES[tube]['hematocrit']:.0f} %"
-        for panel, series, reference in zip(panels, ("viscosity", "ratio", "layer"), ("pries_viscosity", "pries_ratio", None)):
+        for panel, series, reference in zip(panels, ("viscosity", "ratio", "layer"),
+                                            ("pries_viscosity", "pries_ratio", None)):
             x, y = case[series] if series == "layer" else (case["turned"], case[series])
             x = x / row["turns"]
-            panel.plot(x, y, color=COLORS[tube], lw=WIDTHS[mesh], label=label if mesh == "coarse" else None)
+            panel.plot(x, y, color=COLORS[tube], lw=WIDTHS[mesh],
+                       label=label if mesh == "coarse" else None)
             if reference and mesh == "coarse":
                 panel.axhline(row[reference], color=COLORS[tube], ls="--", lw=1)
     panels[0].set(ylabel="viscosity over that of plasma", ylim=(1, None))
     panels[1].set(ylabel="tube over discharge hematocrit", ylim=(None, 1))
     panels[2].set(ylabel="cell-free layer / µm", ylim=(0, None))
     for mesh, width in WIDTHS.items():
-        panels[0].plot([], [], "k", lw=width, label=f"{MESHES[mesh]['shape'][4:]} vertices, dx {MESHES[mesh]['dx']} µm")
+        panels[0].plot([], [], "k", lw=width,
+                       label=f"{MESHES[mesh]['shape'][4:]} vertices, dx {MESHES[mesh]['dx']} µm")
     panels[0].plot([], [], "k--", lw=1, label="Pries et al., same tube hematocrit")
     for panel in panels:
         panel.set(xlabel="time over that of the run", xlim=(0, 1))
@@ -152,7 +160,8 @@ def draw(cases, rows, pictures, path):
     for n, (name, picture) in enumerate(pictures.items()):
         panel = figure.add_subplot(grid[1, 6 // len(pictures) * n:6 // len(pictures) * (n + 1)])
         panel.imshow(plt.imread(picture))
-        panel.set_title(f"{rows[name]['diameter']:g} µm, {100 * rows[name]['tube']:.0f} %, at the end", fontsize=9)
+        panel.set_title(f"{rows[name]['diameter']:g} µm, {100 * rows[name]['tube']:.0f} %, at "
+                        "the end", fontsize=9)
         panel.axis("off")
     figure.savefig(path, dpi=90)
 
@@ -162,7 +171,8 @@ def plasma(arguments, variables):
     folder = arguments.folder / f"plasma-d{variables['diameter']}-dx{variables['dx']}"
     arguments.only = arguments.only and [*arguments.only, folder.name]
     example_study.run_once(arguments, SCRIPT, folder, {**variables, "hematocrit": 0})
-    lines = [line.split() for line in (folder / "log.lammps").read_text(encoding="utf-8").splitlines()]
+    lines = [line.split()
+             for line in (folder / "log.lammps").read_text(encoding="utf-8").splitlines()]
     start = next(n for n, words in enumerate(lines) if words[:1] == ["Step"])
     return float(lines[start + 1][lines[start].index("v_relative")])
 
@@ -182,8 +192,10 @@ def main():
         if name not in PICTURES:
             continue
         pictures[name] = folder / "last.png"
-        subprocess.run([sys.executable, HERE.parents[1] / "scripts" / "render_cells.py", surfaces(folder)[-1][1], "-o", pictures[name],
-                        "--color", "molecule", "--view", "60", "15", "--size", "640x480"], check=True)
+        subprocess.run(
+            [sys.executable, HERE.parents[1] / "scripts" / "render_cells.py",
+             surfaces(folder)[-1][1], "-o", pictures[name],
+             "--color", "molecule", "--view", "60", "15", "--size", "640x480"], check=True)
     example_study.write_rows(rows, arguments.output / "fahraeus.csv")
     draw(cases, rows, pictures, arguments.output / "fahraeus.png")
 

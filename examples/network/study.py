@@ -96,7 +96,8 @@ def interpolated(values, centres, points):
 def run(arguments, variables):
     with tempfile.TemporaryDirectory() as folder:
         places = dict(tables=HERE, scripts=HERE.parents[1] / "scripts")
-        done = example_study.run_script(arguments, HERE / "in.network", folder, {**variables, **places})
+        done = example_study.run_script(arguments, HERE / "in.network", folder,
+                                        {**variables, **places})
         done.check_returncode()
         flows = measured(the_network(), read_grid(Path(folder) / "flow.0.vtr"))
     return list(zip(range(1, len(flows) + 1), flows, poiseuille(the_network())))
@@ -115,19 +116,21 @@ def report(table):
     network = the_network()
     for label, rows in table.items():
         flows, laws = rows[:, 1], rows[:, 2]
-        print(f"\n{label}: segment, radius, length, flow, Poiseuille, difference of the inlet's flow and of its own")
+        print(f"\n{label}: segment, radius, length, flow, Poiseuille, difference of the inlet's "
+              "flow and of its own")
         for (number, flow, law), radius, length in zip(rows, network.radii, network.lengths()):
             print(f"{number:3.0f} {radius:5.1f} {length:6.1f} {flow / FLOW:8.4f} {law / FLOW:8.4f} "
                   f"{(flow - law) / FLOW:+8.2%} {flow / law - 1:+8.2%}")
         away = (flows - laws) / FLOW
-        print(f"of the inlet's flow: rms {np.sqrt((away**2).mean()):.2%}, largest {np.abs(away).max():.2%}, "
-              f"lost in a node {imbalance(network, flows):.2%}")
+        print(f"of the inlet's flow: rms {np.sqrt((away**2).mean()):.2%}, largest "
+              f"{np.abs(away).max():.2%}, lost in a node {imbalance(network, flows):.2%}")
 
 
 def draw(network, flows, path):
     """The surface, colored by the flow of the nearest segment."""
     points, triangles = surface(network, 0.8)
-    starts, ways = network.nodes[network.segments[:, 0]], np.diff(network.nodes[network.segments], axis=1)[:, 0]
+    starts, ways = (network.nodes[network.segments[:, 0]],
+                    np.diff(network.nodes[network.segments], axis=1)[:, 0])
     nearest, least = np.zeros(len(points), dtype=int), np.full(len(points), np.inf)
     for segment, (start, way) in enumerate(zip(starts, ways)):
         along = np.clip((points - start) @ way / (way @ way), 0, 1)
@@ -137,14 +140,16 @@ def draw(network, flows, path):
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "network.vtp"
         write_surface(file, points, triangles, "flow", 100 * flows[nearest] / FLOW)
-        render(file, path, Look(color="flow", label="flow, % of the inlet's", view=(0, 90), size=(1200, 560),
-                                parallel=True, scale_bar=50, range=(0, 100)))
+        render(file, path,
+               Look(color="flow", label="flow, % of the inlet's", view=(0, 90), size=(1200, 560),
+                    parallel=True, scale_bar=50, range=(0, 100)))
 
 
 def write_surface(path, points, triangles, name, values):
     data, vertices, polygons = vtkPolyData(), vtkPoints(), vtkCellArray()
     vertices.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=True))
-    polygons.SetData(3, numpy_to_vtkIdTypeArray(np.ascontiguousarray(triangles.ravel(), dtype=np.int64), deep=True))
+    polygons.SetData(3, numpy_to_vtkIdTypeArray(
+        np.ascontiguousarray(triangles.ravel(), dtype=np.int64), deep=True))
     array = numpy_to_vtk(values, deep=True)
     array.SetName(name)
     data.SetPoints(vertices)
@@ -157,8 +162,10 @@ def write_surface(path, points, triangles, name, values):
 
 
 def main():
-    arguments = command_line.parse(example_study.options(__doc__, [series for series, _, _ in cases()]), HERE)
-    table = example_study.run_cases(arguments, arguments.output / "flows.csv", COLUMNS, cases(), run)
+    arguments = command_line.parse(
+        example_study.options(__doc__, [series for series, _, _ in cases()]), HERE)
+    table = example_study.run_cases(arguments, arguments.output / "flows.csv", COLUMNS, cases(),
+                                    run)
     report(table)
     if arguments.only is None:
         finest = list(table.values())[-1]

@@ -34,10 +34,12 @@ def cases():
             yield "length", f"{kernel} length {length}", dict(kernel=kernel, length=length)
     for kernel, behind in OFFSETS.items():
         for length in (64, 128, 256):
-            yield "points", f"{kernel} points {length}", dict(kernel=kernel, length=length, sheets="no", behind=behind)
+            yield ("points", f"{kernel} points {length}",
+                   dict(kernel=kernel, length=length, sheets="no", behind=behind))
     for kernel in KERNELS:
         for apart in (1.0, 1.4):
-            yield "spacing", f"{kernel} atoms {apart:g} dx", dict(kernel=kernel, length=128, apart=apart)
+            yield ("spacing", f"{kernel} atoms {apart:g} dx",
+                   dict(kernel=kernel, length=128, apart=apart))
 
 
 class Grid:
@@ -46,7 +48,8 @@ class Grid:
     def __init__(self, path):
         text = path.read_text(encoding="utf-8")
         size = [int(n) for n in re.search(r"GRID SIZE.*\n(.*)", text).group(1).split()]
-        sides = [float(line.split()[1]) for line in re.search(r"BOX BOUNDS.*\n(.*\n.*\n.*)", text).group(1).splitlines()]
+        sides = [float(line.split()[1])
+                 for line in re.search(r"BOX BOUNDS.*\n(.*\n.*\n.*)", text).group(1).splitlines()]
         data = np.array(text.split("ITEM: GRID CELLS")[1].split("\n", 1)[1].split(), float)
         self.u, self.p = np.moveaxis(data.reshape(*size[::-1], 2), -1, 0)
         self.h = np.array(sides) / size
@@ -67,8 +70,10 @@ def run(arguments, variables):
     row = re.search(r"\n +Step .*\n(.*)", done.stdout).group(1).split()
     length = variables.get("length", LENGTH)
     port = (float(row[2]) / GRADIENT - (length - 2 * DIAMETER)) / (2 * DIAMETER)
-    profile, gradient, *flows = measure(grid, variables.get("dx", 0.8), length, variables.get("sheets", "yes"))
-    return [(DIAMETER / variables.get("dx", 0.8), length / DIAMETER, profile, gradient, port, *flows, float(row[7]))]
+    profile, gradient, *flows = measure(grid, variables.get("dx", 0.8), length,
+                                        variables.get("sheets", "yes"))
+    return [(DIAMETER / variables.get("dx", 0.8), length / DIAMETER, profile, gradient, port,
+             *flows, float(row[7]))]
 
 
 def measure(grid, dx, length, sheets="yes"):
@@ -76,7 +81,8 @@ def measure(grid, dx, length, sheets="yes"):
     maximum, of the pressure gradient between the ports, and of the flow a quarter of a diameter
     behind the port and halfway."""
     x = grid.x - 4 * dx
-    middle = np.abs(x - length / 2) <= max(length / 2 - 2 * DIAMETER, dx)    # a diameter from the ports
+    # a diameter from the ports
+    middle = np.abs(x - length / 2) <= max(length / 2 - 2 * DIAMETER, dx)
     fastest = 8 * FLOW / (np.pi * DIAMETER**2)
     exact = fastest * (1 - (2 * grid.r / DIAMETER)**2)
     core = grid.r < DIAMETER / 2 - 2 * dx    # the kernel blurs the rest
@@ -90,13 +96,15 @@ def measure(grid, dx, length, sheets="yes"):
 
 
 def report(table):
-    print("                     cells  length  profile  gradient     port  behind it  halfway  solves")
+    print("                     cells  length  profile  gradient     port  behind it  halfway  "
+          "solves")
     for label, rows in table.items():
         cells, length, profile, gradient, port, entered, halfway, solves = rows[0]
-        print(f"{label:20s} {cells:5.0f} {length:5.0f} D {profile:8.2%} {gradient:+9.2%} {port:8.3f} {entered:+10.3%} "
-              f"{halfway:+8.3%} {solves:7.0f}")
+        print(f"{label:20s} {cells:5.0f} {length:5.0f} D {profile:8.2%} {gradient:+9.2%} "
+              f"{port:8.3f} {entered:+10.3%} {halfway:+8.3%} {solves:7.0f}")
     for kernel in KERNELS:
-        errors = [table[label][0][2] for _, label, _ in cases() if label.startswith(f"{kernel} dx") and label in table]
+        errors = [table[label][0][2] for _, label, _ in cases() if label.startswith(f"{kernel} dx")
+                  and label in table]
         if len(errors) == 3:
             orders = np.log2(np.array(errors[:-1]) / errors[1:])
             print(f"{kernel}: order of the profile's error {orders[0]:.2f}, {orders[1]:.2f}")
@@ -108,14 +116,18 @@ def plot(table, path):
     import matplotlib.pyplot as plt
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.5, 3.8))
     for kernel, color in KERNELS.items():
-        rows = np.array([values[0] for label, values in table.items() if label.startswith(f"{kernel} dx")])
+        rows = np.array(
+            [values[0] for label, values in table.items() if label.startswith(f"{kernel} dx")])
         left.loglog(rows[:, 0], 100 * rows[:, 2], "o-", color=color, label=f"{kernel}, profile")
-        left.loglog(rows[:, 0], 100 * np.abs(rows[:, 3]), "s--", color=color, mfc="none", label=f"{kernel}, gradient")
+        left.loglog(rows[:, 0], 100 * np.abs(rows[:, 3]), "s--", color=color, mfc="none",
+                    label=f"{kernel}, gradient")
         rows = np.array([values[0] for label, values in table.items()
                          if re.match(f"{kernel} (dx 0.8|length)", label)])
         right.plot(rows[:, 1], 100 * rows[:, 3], "o-", color=color, label=f"{kernel}, sheets yes")
-        rows = np.array([values[0] for label, values in table.items() if label.startswith(f"{kernel} points")])
-        right.plot(rows[:, 1], 100 * rows[:, 3], "s--", color=color, mfc="none", label=f"{kernel}, sheets no")
+        rows = np.array(
+            [values[0] for label, values in table.items() if label.startswith(f"{kernel} points")])
+        right.plot(rows[:, 1], 100 * rows[:, 3], "s--", color=color, mfc="none",
+                   label=f"{kernel}, sheets no")
     cells = np.array([10, 40])
     left.loglog(cells, 8 * (10 / cells)**2, "k:", label="order 2")
     left.set(xlabel="cells of the grid across the tube", ylabel="error, %")
@@ -128,8 +140,10 @@ def plot(table, path):
 
 
 def main():
-    arguments = command_line.parse(example_study.options(__doc__, [series for series, _, _ in cases()]), HERE)
-    table = example_study.run_cases(arguments, arguments.output / "ports.csv", COLUMNS, cases(), run)
+    arguments = command_line.parse(
+        example_study.options(__doc__, [series for series, _, _ in cases()]), HERE)
+    table = example_study.run_cases(arguments, arguments.output / "ports.csv", COLUMNS, cases(),
+                                    run)
     report(table)
     if arguments.only is None:
         plot(table, arguments.output / "ports.png")

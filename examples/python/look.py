@@ -1,5 +1,5 @@
-"""What a run of in.files wrote, in numpy; doc/tutorial_python.rst explains it. Runs in the folder of
-the files."""
+"""What a run of in.files wrote, in numpy; doc/tutorial_python.rst explains it. Runs in the folder
+of the files."""
 import numpy as np
 import rbc
 

@@ -26,9 +26,10 @@ import numpy as np  # noqa: E402
 
 REFERENCE = HERE.parent / "reference" / "01g_relaxation_hochmuth1979.csv"
 TABLE = "relaxation.csv"
-LABELS = {"thinning": "healthy.material: η_m falls", "rounder": "the same, free of stress in a rounder shape",
-          "600": "η_m = 600 pg/µs"}
-CHANGED = {"thinning": {}, "rounder": dict(sheet="rbc_642_spheroid98")}    # variables; the others are constant viscosities
+LABELS = {"thinning": "healthy.material: η_m falls",
+          "rounder": "the same, free of stress in a rounder shape", "600": "η_m = 600 pg/µs"}
+# variables; the others are constant viscosities
+CHANGED = {"thinning": {}, "rounder": dict(sheet="rbc_642_spheroid98")}
 
 
 def curve(t, parameters):
@@ -44,7 +45,8 @@ def fit(t, ratio):
     p = np.array([0.12, ratio[-1], ratio[0]])
     for _ in range(100):
         residual = ratio - curve(t, p)
-        slopes = np.stack([(curve(t, p + h) - curve(t, p - h)) / 2e-6 for h in 1e-6 * np.eye(3)], axis=1)
+        slopes = np.stack([(curve(t, p + h) - curve(t, p - h)) / 2e-6 for h in 1e-6 * np.eye(3)],
+                          axis=1)
         step = np.linalg.lstsq(slopes, residual, rcond=None)[0]
         p += np.clip(step, -0.2 * p, 0.2 * p)
     return p
@@ -53,8 +55,10 @@ def fit(t, ratio):
 def measure(lmp, templates, case):
     changed = CHANGED.get(case, dict(surface_viscosity=case, fast_viscosity=case))
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([lmp, "-in", HERE / "in.relaxation", "-log", "none", "-screen", "none", "-var", "templates", templates,
-                        *(word for name, value in changed.items() for word in ("-var", name, value))], cwd=folder, check=True)
+        subprocess.run([lmp, "-in", HERE / "in.relaxation", "-log", "none", "-screen", "none",
+                        "-var", "templates", templates, *(word for name, value in changed.items()
+                                                          for word in ("-var", name, value))],
+                       cwd=folder, check=True)
         return np.loadtxt(Path(folder) / "relaxation.dat")[:, :2].T
 
 
@@ -80,14 +84,16 @@ def main():
         curves[case] = measure(options.lmp.resolve(), HERE.parents[1] / "potentials", case)
         with open(table, "w", encoding="utf-8") as stream:
             stream.write("case,time_s,L_over_W\n")
-            stream.writelines(f"{name},{t:.6g},{ratio:.6g}\n" for name, rows in curves.items() for t, ratio in zip(*rows))
+            stream.writelines(f"{name},{t:.6g},{ratio:.6g}\n" for name, rows in curves.items()
+                              for t, ratio in zip(*rows))
 
     figure, axis = plt.subplots(figsize=(7, 4.8))
     times = []
     for n, (name, (t, ratio)) in enumerate(read(REFERENCE).items()):
         p = fit(t, ratio)
         times.append(p[0])
-        axis.plot(t, ratio, "os^v"[n], ms=4, mfc="none", color=f"C{n}", label=f"Hochmuth 1979, cell {name}: {p[0]:.3f} s")
+        axis.plot(t, ratio, "os^v"[n], ms=4, mfc="none", color=f"C{n}",
+                  label=f"Hochmuth 1979, cell {name}: {p[0]:.3f} s")
         print(f"data, cell {name}: tc = {p[0]:.4f} s, L/W from {p[2]:.2f} to {p[1]:.2f}")
     print(f"data: {min(times):.4f} to {max(times):.4f} s")
     for n, case in enumerate(case for case in LABELS if case in curves):

@@ -30,14 +30,16 @@ RENDER = HERE.parents[1] / "scripts" / "render_cells.py"
 def run(arguments, work, folder):
     """Columns of rouleau.dat, and a picture of the cells halfway through each shear rate."""
     done = example_study.run_script(arguments, HERE / "in.rouleau", folder,
-                                    {"sigma": work, "K": MODULUS * (work or min(filter(None, WORKS)))})
+                                    {"sigma": work,
+                                     "K": MODULUS * (work or min(filter(None, WORKS)))})
     if done.returncode:
         sys.exit(done.stdout[-600:])
     shots = {}
     if work in SHOWN:
         for surfaces in sorted(Path(folder).glob("cells.*.vtp")):
             picture = surfaces.with_suffix(".png")
-            subprocess.run([sys.executable, RENDER, surfaces, "-o", picture, "--view", "0", "0", "--color", "aggregate",
+            subprocess.run([sys.executable, RENDER, surfaces, "-o", picture, "--view", "0", "0",
+                            "--color", "aggregate",
                             "--box", "0", "40", "0", "16", "0", "32", "--plates"], check=True)
             shots[float(surfaces.name.split(".")[1])] = plt.imread(picture)
     return read_table(Path(folder) / "rouleau.dat"), shots
@@ -51,7 +53,8 @@ def draw(tables, shots, path):
         axis = axes[0][column]
         for work, table in tables.items():
             here = table["v_rate"] == rate
-            axis.plot(np.linspace(0, 15, here.sum()), table["c_rouleau[1]"][here], label=f"{1000 * work:g} µJ/m²")
+            axis.plot(np.linspace(0, 15, here.sum()), table["c_rouleau[1]"][here],
+                      label=f"{1000 * work:g} µJ/m²")
         axis.set_title(f"{rate:g} /s")
         axis.set_xlabel("strain at this rate")
         axis.set_ylim(0, 8.5)
@@ -77,7 +80,8 @@ def main():
             tables[work], shots[work] = run(arguments, work, folder)
     with open(path, "w", newline="", encoding="ascii") as stream:
         writer = csv.writer(stream)
-        writer.writerow(("sigma_mN_m", "rate_1_s", "aggregates_mean", "aggregates_end", "largest_end", "energy_end"))
+        writer.writerow(("sigma_mN_m", "rate_1_s", "aggregates_mean", "aggregates_end",
+                         "largest_end", "energy_end"))
         for work, table in tables.items():
             for rate in sorted(set(table["v_rate"]) - {0}):
                 here = table["v_rate"] == rate

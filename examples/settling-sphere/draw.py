@@ -40,7 +40,8 @@ def array_drag(scene, radius):
     """Drag factor of a simple cubic array, Sangani & Acrivos, Int. J. Multiphase Flow 8 (1982)
     343."""
     c = 4 * np.pi / 3 * (radius / scene.side) ** 3
-    return 1 / (1 - 1.7601 * c ** (1 / 3) + c - 1.5593 * c**2 + 3.9799 * c ** (8 / 3) - 3.0734 * c ** (10 / 3))
+    return 1 / (1 - 1.7601 * c ** (1 / 3) + c - 1.5593 * c**2 +
+                3.9799 * c ** (8 / 3) - 3.0734 * c ** (10 / 3))
 
 
 def alone(scene, radius, times):
@@ -73,14 +74,16 @@ def main():
     fine = np.linspace(0, 1, 2001)
     early = alone(scene, radius, fine)
     at = np.interp(0.2, fine, early)
-    print(f"hydrodynamic radius {radius:.4f}: terminal speed {speed[-1]:.5f}, cubic array {terminal:.5f} "
-          f"({100 * (speed[-1] / terminal - 1):+.2f} %); at time 0.2 {np.interp(0.2, time, speed):.5f}, "
+    print(f"hydrodynamic radius {radius:.4f}: terminal speed {speed[-1]:.5f}, cubic array "
+          f"{terminal:.5f} ({100 * (speed[-1] / terminal - 1):+.2f} %); at time 0.2 "
+          f"{np.interp(0.2, time, speed):.5f}, "
           f"alone {at:.5f} ({100 * (np.interp(0.2, time, speed) / at - 1):+.2f} %)")
 
     figure, axis = plt.subplots(figsize=(6, 4))
     axis.plot(time, speed, label="USER-RBC")
     axis.plot(fine, early, "--", label="a sphere alone (Basset-Boussinesq-Oseen)")
-    axis.axhline(terminal, color="grey", linestyle=":", label="cubic array, steady (Sangani & Acrivos)")
+    axis.axhline(terminal, color="grey", linestyle=":",
+                 label="cubic array, steady (Sangani & Acrivos)")
     axis.set_xlabel("time · viscosity / (density · radius²)")
     axis.set_ylabel("speed")
     axis.set_ylim(0, 1.3 * terminal)

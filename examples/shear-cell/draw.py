@@ -50,15 +50,15 @@ def main():
     deformations, areas, volumes = (history.column(n)[:, 0] for n in (7, 5, 6))
     late = deformations[history.steps * strain >= 5]
     if late.size:
-        print(f"D {late.min():.3f} to {late.max():.3f}, area {areas.min():.1f} to {areas.max():.1f} um^2, "
-              f"volume within {np.abs(volumes / volumes[0] - 1).max():.1e}")
+        print(f"D {late.min():.3f} to {late.max():.3f}, area {areas.min():.1f} to "
+              f"{areas.max():.1f} um^2, volume within {np.abs(volumes / volumes[0] - 1).max():.1e}")
 
     figure = plt.figure(figsize=(12, 5.6))
     grid = figure.add_gridspec(2, 2 * SNAPSHOTS, height_ratios=(1.5, 1))
     deformation = figure.add_subplot(grid[0, :SNAPSHOTS])
     deformation.plot(history.steps * strain, deformations, color="#b3202a")
-    deformation.set(xlabel="strain (shear rate × time)", ylabel="Taylor deformation D", ylim=(0, None),
-                    title=f"healthy red cell at {rate:g} /s, {viscosity:.3g} mPa s")
+    deformation.set(xlabel="strain (shear rate × time)", ylabel="Taylor deformation D",
+                    ylim=(0, None), title=f"healthy red cell at {rate:g} /s, {viscosity:.3g} mPa s")
     turning = figure.add_subplot(grid[0, SNAPSHOTS:])
     turning.plot(steps * strain, (shape - shape[0]) / 180, label="shape (long axis)")
     turning.plot(steps * strain, membrane / 180, "--", label="membrane")

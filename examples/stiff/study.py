@@ -4,7 +4,8 @@ each integrator. Spheroids as stiff turn against Jeffery's period, over grid, me
 
 Runs in.stiff for a list of cases, measures the period of the tumbling, writes stiff.csv to a folder
 and once it has all cases draws stiff.png there. Cases that its stiff.csv already holds are not run
-again. Prints the periods of spheroids, over Jeffery's, in the smallest box and in an unbounded fluid.
+again. Prints the periods of spheroids, over Jeffery's, in the smallest box and in an unbounded
+fluid.
 
 study.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1] [--only step rate]
 """
@@ -26,16 +27,18 @@ import numpy as np  # noqa: E402
 from example_study import POTENTIALS, options, run_script, wanted  # noqa: E402
 from rbc.snapshots import picture, surfaces  # noqa: E402
 
-BASE = dict(rate=100, strain=11.5, timestep=1000, integrator="rkc auto", error=0, shape="rbc_362", dx=0.65, box=19.5,
-            kernel="roma3", smooth="yes", place=0,
+BASE = dict(rate=100, strain=11.5, timestep=1000, integrator="rkc auto", error=0, shape="rbc_362",
+            dx=0.65, box=19.5, kernel="roma3", smooth="yes", place=0,
             stiffer=1)
 DIAMETER = 7.82
 ASPECT = 2.565 / DIAMETER    # thickness over diameter of the disc, and the axis ratio of a spheroid
-ACROSS = ((6, 3), (8, 4), (12, 6), (16, 8))    # fluid cells per diameter, frequency of the mesh: edges of 0.9 spacings
+# fluid cells per diameter, frequency of the mesh: edges of 0.9 spacings
+ACROSS = ((6, 3), (8, 4), (12, 6), (16, 8))
 BOXES = (2.5, 4)         # in diameters, to extrapolate
-COLUMNS = ("sheared", "area", "volume", "D", "axis_x", "axis_z", "solves", "stages", "step", "repeated")
-FIELDS = ("series", *BASE, "ended", "period", "ratio", "D_low", "D_high", "area_change", "volume_error",
-          "solves_per_ms", "stages", "mean_step", "core_s")
+COLUMNS = ("sheared", "area", "volume", "D", "axis_x", "axis_z", "solves", "stages", "step",
+           "repeated")
+FIELDS = ("series", *BASE, "ended", "period", "ratio", "D_low", "D_high", "area_change",
+          "volume_error", "solves_per_ms", "stages", "mean_step", "core_s")
 
 
 def spheroid(aspect, across, frequency, box, **others):
@@ -44,8 +47,8 @@ def spheroid(aspect, across, frequency, box, **others):
     # the box lengthens the period by up to 7 %, rough tractions by 40
     slower = 1.07 if others.get("smooth", "yes") == "yes" else 1.5
     return dict(BASE, strain=round(slower * jeffery_period(aspect) / 2 + 0.3, 1),
-                shape=f"spheroid_{aspect:.4g}_{10 * frequency**2 + 2}", dx=round(DIAMETER / across, 6),
-                box=round(box * DIAMETER, 6)) | others
+                shape=f"spheroid_{aspect:.4g}_{10 * frequency**2 + 2}",
+                dx=round(DIAMETER / across, 6), box=round(box * DIAMETER, 6)) | others
 
 
 def against_jeffery():
@@ -61,7 +64,8 @@ def against_jeffery():
     for across, frequency in ACROSS[:3]:
         for box in BOXES:
             yield "peskin4", spheroid(ASPECT, across, frequency, box, kernel="peskin4")
-    for aspect, across, frequency in ((ASPECT, 16, 8), (ASPECT, 12, 5), (ASPECT, 12, 8), (0.5, 12, 6)):
+    for aspect, across, frequency in ((ASPECT, 16, 8), (ASPECT, 12, 5), (ASPECT, 12, 8),
+                                      (0.5, 12, 6)):
         yield "peskin4", spheroid(aspect, across, frequency, BOXES[0], kernel="peskin4")
     for across, frequencies in ((8, (3, 5, 6)), (12, (4, 5, 8, 9))):
         for frequency in frequencies:
@@ -91,7 +95,8 @@ def cases():
         yield "dx", dict(BASE, dx=round(7.8 / across, 6), shape=f"rbc_{10 * frequency**2 + 2}")
     for integrator in ("euler", "midpoint", "ab2"):
         for timestep in (0.1, 0.2, 0.3, 0.4, 0.6):
-            yield "explicit", dict(BASE, integrator=integrator, timestep=timestep, strain=round(1e-4 * 2000 * timestep, 6))
+            yield "explicit", dict(BASE, integrator=integrator, timestep=timestep,
+                                   strain=round(1e-4 * 2000 * timestep, 6))
 
 
 def jeffery_period(aspect):
@@ -130,13 +135,16 @@ def start(arguments, folder, variables):
     if variables["shape"].startswith("spheroid"):
         _, aspect, vertices = variables["shape"].split("_")
         frequency = round(((int(vertices) - 2) / 10)**0.5)
-        subprocess.run([sys.executable, os.path.join(POTENTIALS, "make_template.py"), "spheroid", "--axis-ratio", aspect,
-                        "--diameter", str(DIAMETER), "--frequency", str(frequency), "--output", os.path.join(folder, f"{variables['shape']}.mol")],
+        subprocess.run([sys.executable, os.path.join(POTENTIALS, "make_template.py"), "spheroid",
+                        "--axis-ratio", aspect,
+                        "--diameter", str(DIAMETER), "--frequency", str(frequency), "--output",
+                        os.path.join(folder, f"{variables['shape']}.mol")],
                        check=True, stdout=subprocess.DEVNULL)
     for name in os.listdir(POTENTIALS):
         if name.endswith((".mol", ".material")):
             os.symlink(os.path.join(POTENTIALS, name), os.path.join(folder, name))
-    return run_script(arguments, os.path.join(HERE, "in.stiff"), folder, variables, templates=folder).returncode == 0
+    return run_script(arguments, os.path.join(HERE, "in.stiff"), folder, variables,
+                      templates=folder).returncode == 0
 
 
 def run(arguments, series, variables):
@@ -157,7 +165,8 @@ def run(arguments, series, variables):
                    area_change=abs(history["area"] / history["area"][0] - 1).max(),
                    volume_error=abs(history["volume"] / history["volume"][0] - 1).max(),
                    solves_per_ms=solves / duration, stages=history["stages"][late].mean(),
-                   mean_step=history["step"][1:].mean() if variables["error"] else variables["timestep"])
+                   mean_step=history["step"][1:].mean()
+                   if variables["error"] else variables["timestep"])
         if series != "explicit":
             row["period"] = 2 * half_turns(history).mean()
             # of the polyhedron, a little thicker than the spheroid on which its vertices lie
@@ -201,12 +210,14 @@ def draw(arguments, rows):
         start(arguments, folder, dict(BASE, timestep=400))
         history = measure(folder)
         angle = axis_angle(history)
-        turning.plot(history["sheared"], np.degrees(angle), color="#b3202a", label="cell, 1000 times healthy")
+        turning.plot(history["sheared"], np.degrees(angle), color="#b3202a",
+                     label="cell, 1000 times healthy")
         strain = np.linspace(0, BASE["strain"], 300)
         for aspect, style in ((ASPECT, "--"), (best_aspect(history), ":")):
-            turning.plot(strain, np.degrees(jeffery_angle(strain, aspect, angle[0])), style, color="#222222",
-                         label=f"Jeffery, aspect ratio {aspect:.3f}")
-        turning.set(xlabel="strain (shear rate × time)", ylabel="angle of the axis to the gradient / degrees",
+            turning.plot(strain, np.degrees(jeffery_angle(strain, aspect, angle[0])), style,
+                         color="#222222", label=f"Jeffery, aspect ratio {aspect:.3f}")
+        turning.set(xlabel="strain (shear rate × time)",
+                    ylabel="angle of the axis to the gradient / degrees",
                     title="a cell with the moduli of Table 2 as printed")
         turning.legend(frameon=False)
         for n, (at, image) in enumerate(snapshots(folder, np.linspace(0, BASE["strain"], 5))):
@@ -229,13 +240,15 @@ def draw(arguments, rows):
 
 def draw_periods(axes, rows):
     found = spheroids(rows)
-    styles = {(ASPECT, "roma3"): "o-", (0.5, "roma3"): "s-", (0.9, "roma3"): "^-", (ASPECT, "peskin4"): "o--"}
+    styles = {(ASPECT, "roma3"): "o-", (0.5, "roma3"): "s-", (0.9, "roma3"): "^-",
+              (ASPECT, "peskin4"): "o--"}
     for (aspect, kernel), style in styles.items():
         points = []
         for across, frequency in ACROSS:
             body = (float(f"{aspect:.4g}"), 10 * frequency**2 + 2, across, kernel, "yes", 0.0, 1.0)
             if len(found.get(body, (0, {}))[1]) > 1:
-                points.append((across, 100 * (unbounded(found[body][1]) / jeffery_period(aspect) - 1)))
+                points.append(
+                    (across, 100 * (unbounded(found[body][1]) / jeffery_period(aspect) - 1)))
         axes.plot(*zip(*points), style, label=f"aspect ratio {aspect:.3g}, {kernel}")
     axes.axhspan(-1, 1, color="#eeeeee")
     axes.set(xlabel="fluid cells per diameter", ylabel="period over Jeffery's - 1 / %",
@@ -256,9 +269,11 @@ def spheroids(rows):
     for row in rows:
         if row["shape"].startswith("spheroid") and row["period"]:
             _, aspect, vertices = row["shape"].split("_")
-            body = (float(aspect), int(vertices), round(DIAMETER / float(row["dx"])), row["kernel"], row["smooth"],
+            body = (float(aspect), int(vertices), round(DIAMETER / float(row["dx"])), row["kernel"],
+                    row["smooth"],
                     float(row["place"]), float(row["stiffer"]))
-            found.setdefault(body, (float(row["ratio"]), {}))[1][float(row["box"])] = float(row["period"])
+            found.setdefault(body,
+                             (float(row["ratio"]), {}))[1][float(row["box"])] = float(row["period"])
     return found
 
 
@@ -274,11 +289,13 @@ def report(rows):
     """Periods of spheroids over Jeffery's."""
     for body, (ratio, periods) in spheroids(rows).items():
         jeffery, smallest = jeffery_period(body[0]), periods[min(periods)]
-        line = ("{:5} {:4} vertices, {:2} dx, {:8} smooth {:4} place {:4} moduli x {:3}".format(*body) +
-                f" in the box {smallest / jeffery:.4f}")
+        line = (
+            "{:5} {:4} vertices, {:2} dx, {:8} smooth {:4} place {:4} moduli x {:3}".format(*body) +
+            f" in the box {smallest / jeffery:.4f}")
         if len(periods) > 1:
             alone = unbounded(periods)
-            line += f" unbounded {alone / jeffery:.4f}, of ratio {ratio:.4f} {alone / jeffery_period(ratio):.4f}"
+            line += (f" unbounded {alone / jeffery:.4f}, of ratio {ratio:.4f} "
+                     f"{alone / jeffery_period(ratio):.4f}")
         print(line)
 
 

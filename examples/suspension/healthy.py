@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Viscosity of blood of 43 % beside the measurements of Wells and Merrill (1962): what an inside
 five times as viscous as plasma adds, and what the viscosity of the membranes does, on two grids.
-Runs in.suspension with 32 cells over a strain of 5 for each case; writes healthy.csv and healthy.png
-to a folder and prints the table of the README.
+Runs in.suspension with 32 cells over a strain of 5 for each case; writes healthy.csv and
+healthy.png to a folder and prints the table of the README.
 
 healthy.py --output FOLDER [--lmp ../../build/lmp_rbc] [--ranks 1] [--only plain inside healthy]
 """
@@ -75,10 +75,10 @@ def draw(table, path):
             points = [(rate, table[label(kind, contact, rate, shape)][-1][0]) for rate in RATES
                       if label(kind, contact, rate, shape) in table]
             if points:
-                panel.plot(*np.array(points).T, LINES[contact], marker="o", ms=4, color=COLORS[kind],
-                           label=f"{WORDS[kind]}, {contact}")
-        panel.set(title=f"{shape[4:]} vertices, dx {dx:g} µm", xlabel="shear rate, 1/s", xscale="log",
-                  ylim=(0, None))
+                panel.plot(*np.array(points).T, LINES[contact], marker="o", ms=4,
+                           color=COLORS[kind], label=f"{WORDS[kind]}, {contact}")
+        panel.set(title=f"{shape[4:]} vertices, dx {dx:g} µm", xlabel="shear rate, 1/s",
+                  xscale="log", ylim=(0, None))
     axes[0].set_ylabel("viscosity over that of plasma")
     axes[0].legend(frameon=False, fontsize=8)
     figure.savefig(path, dpi=110)

@@ -87,12 +87,15 @@ def draw(cases, pictures, path):
         label = f"{name[1:]} /s, {WORDS[name[0]]}"
         axes["viscosity"].plot(*case["history"], line, color=color, label=label)
         counts, edges = np.histogram(case["pairs"], np.arange(0, REACH + 0.01, 0.04))
-        axes["gaps"].stairs(100 * counts / counts.sum(), edges, color=color, linestyle=line, label=label)
+        axes["gaps"].stairs(100 * counts / counts.sum(), edges, color=color, linestyle=line,
+                            label=label)
         if name in bars:
             places = np.arange(len(case["classes"].edges)) + 0.26 * (bars.index(name) - 1)
-            axes["sizes"].bar(places, 100 * case["classes"].fractions(False), 0.26, color=color, label=f"{name[1:]} /s")
+            axes["sizes"].bar(places, 100 * case["classes"].fractions(False), 0.26, color=color,
+                              label=f"{name[1:]} /s")
     axes["viscosity"].set(xlabel="strain", ylabel="viscosity over that of plasma", ylim=(0, None))
-    axes["sizes"].set(xlabel="cells in the aggregate, from", ylabel="aggregates (%)", xlim=(0.4, 8.6))
+    axes["sizes"].set(xlabel="cells in the aggregate, from", ylabel="aggregates (%)",
+                      xlim=(0.4, 8.6))
     axes["gaps"].set(xlabel="least gap of two neighbors (um)", ylabel="pairs (%)")
     for name in ("viscosity", "sizes", "gaps"):
         axes[name].legend(frameon=False, fontsize=8)

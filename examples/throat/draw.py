@@ -26,7 +26,8 @@ VERTICES = 642
 
 def read_slices(path):
     """Steps, middles of the slices and vertices in them, of `fix ave/chunk`."""
-    rows = [line.split() for line in Path(path).read_text(encoding="ascii").splitlines() if not line.startswith("#")]
+    rows = [line.split() for line in Path(path).read_text(encoding="ascii").splitlines()
+            if not line.startswith("#")]
     size = int(rows[0][1]) + 1
     blocks = [rows[n:n + size] for n in range(0, len(rows) - size + 1, size)]
     table = np.array([[row[1:3] for row in block[1:]] for block in blocks], dtype=float)
@@ -50,15 +51,18 @@ def draw(folders, path):
         table = read_table(folder / "blocks.dat")
         top, bottom = axes[:, column]
         for name, color in zip(BLOCKS, ("#b3202a", "#4b8b3b", "#2a6fb0")):
-            top.step(table["v_seconds"], table[name], where="post", color=color, label=f"BLOCK {name[-1]}")
+            top.step(table["v_seconds"], table[name], where="post", color=color,
+                     label=f"BLOCK {name[-1]}")
         top.set(title=title, xlabel="time / s", ylabel="cells in a block" if column == 0 else None)
         top.legend(frameon=False, fontsize=8, ncol=3)
         steps, x, vertices = read_slices(folder / "slices.dat")
         time = np.interp(steps, table["TimeStep"], table["v_seconds"])
         last = second_half(time)
         bottom.step(x, vertices[0] / VERTICES, where="mid", color="0.6", label="at the start")
-        bottom.step(x, mean_over_time(time[last], vertices[last]) / VERTICES, where="mid", color="k", label="mean over the second half")
-        bottom.set(xlabel="x / µm (flow to the right)", ylabel="cells in a slice of D/2" if column == 0 else None)
+        bottom.step(x, mean_over_time(time[last], vertices[last]) / VERTICES, where="mid",
+                    color="k", label="mean over the second half")
+        bottom.set(xlabel="x / µm (flow to the right)",
+                   ylabel="cells in a slice of D/2" if column == 0 else None)
         bottom.legend(frameon=False, fontsize=8)
     for left in axes[:, 0]:    # both columns share its limits
         left.set_ylim(0, 1.15 * left.get_ylim()[1])
@@ -75,20 +79,26 @@ def main():
     folders = arguments.straight, arguments.throat
     with open(arguments.output / "throat.csv", "w", newline="", encoding="ascii") as stream:
         writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(("vessel", "seconds", "block0", "block1", "block2", "mean_velocity_um_s", "lengths_gone"))
+        writer.writerow(("vessel", "seconds", "block0", "block1", "block2", "mean_velocity_um_s",
+                         "lengths_gone"))
         for folder, vessel in zip(folders, ("straight", "throat")):
             table = read_table(folder / "blocks.dat")
             gone = table["v_passed"] - table["v_passed"][0]
-            writer.writerows((vessel, f"{t:.5f}", *(f"{n:g}" for n in counts), f"{u:.4g}", f"{g:.4f}") for t, *counts, u, g in
-                             zip(table["v_seconds"], *(table[name] for name in BLOCKS), table["v_u"], gone))
+            writer.writerows(
+                (vessel, f"{t:.5f}", *(f"{n:g}" for n in counts), f"{u:.4g}", f"{g:.4f}")
+                for t, *counts, u, g in
+                zip(table["v_seconds"], *(table[name] for name in BLOCKS), table["v_u"], gone))
             time = table["v_seconds"]
             last = second_half(time)
-            print(f"{vessel}: {time[-1]:.3f} s, cells went {gone[-1]:.2f} lengths; mean of the second half:",
-                  *(f"BLOCK {name[-1]} {mean_over_time(time[last], table[name][last]):.2f}" for name in BLOCKS),
+            print(f"{vessel}: {time[-1]:.3f} s, cells went {gone[-1]:.2f} lengths; mean of the "
+                  "second half:",
+                  *(f"BLOCK {name[-1]} {mean_over_time(time[last], table[name][last]):.2f}"
+                    for name in BLOCKS),
                   f"velocity {mean_over_time(time[last], table['v_u'][last]):.1f} um/s")
             for length in range(int(gone[-1] + 0.01)):
                 rows = (gone >= length) & (gone < length + 1)
-                before, behind = (mean_over_time(time[rows], table[name][rows]) for name in (BLOCKS[0], BLOCKS[2]))
+                before, behind = (mean_over_time(time[rows], table[name][rows])
+                                  for name in (BLOCKS[0], BLOCKS[2]))
                 print(f"  length {length + 1}: BLOCK 0 over BLOCK 2 {before / behind:.3f}")
     draw(folders, arguments.output / "throat.png")
 

@@ -35,11 +35,13 @@ class Cells:
     angles."""
 
     def __init__(self, folder):
-        table = np.loadtxt((folder / "tube.dat").read_text(encoding="utf-8").rpartition("\n")[0].splitlines())
+        table = np.loadtxt(
+            (folder / "tube.dat").read_text(encoding="utf-8").rpartition("\n")[0].splitlines())
         history = read_ave_time(folder / "cell.dat")
         frames = min(len(table), len(history.steps))
         self.steps = history.steps[:frames]
-        self.time, self.relative, self.gap = table[:frames, 1] * 1e-3, table[:frames, 3], table[:frames, 4]
+        self.time, self.relative, self.gap = (table[:frames, 1] * 1e-3, table[:frames, 3],
+                                              table[:frames, 4])
         axis = DX * np.ceil(2 * RADIUS / DX + 7) / 2
         across = history.columns(3, 4)[:frames] - axis
         self.r = np.linalg.norm(across, axis=2)
@@ -90,7 +92,8 @@ def membrane_angles(cells, folder):
             sides = [np.sign(points @ normal) for points, normal in zip(centred, normals)]
         lines = np.array([side @ points for side, points in zip(sides, centred)])
         lines /= np.linalg.norm(lines, axis=1)[:, None]
-        angles.append(np.degrees(np.arccos(np.minimum(abs(np.einsum("ci,ci->c", lines, normals)), 1))))
+        angles.append(
+            np.degrees(np.arccos(np.minimum(abs(np.einsum("ci,ci->c", lines, normals)), 1))))
     return np.array(angles)
 
 
@@ -101,10 +104,13 @@ def measure(cells, membrane):
     rows = []
     for n in range(cells.r.shape[1]):
         half_turns = (cells.turned[late][-1, n] - cells.turned[late][0, n]) / 180
-        rows.append({"cell": n + 1, "radius": cells.r[late, n].mean(), "velocity": 1e6 * cells.velocity[late, n].mean(),
+        rows.append({"cell": n + 1, "radius": cells.r[late, n].mean(),
+                     "velocity": 1e6 * cells.velocity[late, n].mean(),
                      "length": cells.length[late, n].mean(), "longest": cells.length[late, n].max(),
-                     "deformation": cells.deformation[late, n].mean(), "half_turns_per_s": 1e3 * half_turns / span,
-                     "long_axis_angle": cells.long_angle[late, n].mean(), "long_axis_angle_sd": cells.long_angle[late, n].std(),
+                     "deformation": cells.deformation[late, n].mean(),
+                     "half_turns_per_s": 1e3 * half_turns / span,
+                     "long_axis_angle": cells.long_angle[late, n].mean(),
+                     "long_axis_angle_sd": cells.long_angle[late, n].std(),
                      "membrane_angle": membrane[:, n].max()})
     mean_radius = np.array([row["radius"] for row in rows])
     return rows, int(mean_radius.argmax()), int(mean_radius.argmin())
@@ -148,12 +154,13 @@ def draw(cells, rows, wall, axis, picture, path):
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
-    figure, panels = plt.subplot_mosaic([["angle", "picture"], ["turned", "radial"]], figsize=(12.5, 8),
-                                        layout="constrained")
+    figure, panels = plt.subplot_mosaic([["angle", "picture"], ["turned", "radial"]],
+                                        figsize=(12.5, 8), layout="constrained")
     for n, color, name in ((wall, WALL, "near the wall"), (axis, AXIS, "near the axis")):
         label = f"{name}, r = {rows[n]['radius']:.1f} µm"
         panels["angle"].plot(cells.periods, cells.short_angle[:, n], color=color, label=label)
-    panels["angle"].set(ylabel="normal of the disc to the tube's axis (degrees)", ylim=(0, 180), yticks=range(0, 181, 30))
+    panels["angle"].set(ylabel="normal of the disc to the tube's axis (degrees)", ylim=(0, 180),
+                        yticks=range(0, 181, 30))
     outermost = sorted(range(len(rows)), key=lambda n: -rows[n]["radius"])[:4]
     for n, color in zip(outermost, (WALL, "#e07b39", "#8e5ea2", "0.5")):
         panels["turned"].plot(cells.periods, cells.turned[:, n] - cells.turned[0, n], color=color,
@@ -169,13 +176,16 @@ def draw(cells, rows, wall, axis, picture, path):
     panel = panels["radial"]
     panel.plot(radius, [row["velocity"] for row in rows], "o", color="#b3202a", label="velocity")
     fine = np.linspace(0, RADIUS, 100)
-    panel.plot(fine, 2e6 * SPEED * (1 - (fine / RADIUS)**2), color="0.6", lw=1, label="plasma alone")
-    panel.set(xlabel="distance of the centre from the axis / µm", ylabel="velocity of a cell / (µm/s)", ylim=(0, None),
+    panel.plot(fine, 2e6 * SPEED * (1 - (fine / RADIUS)**2), color="0.6", lw=1,
+               label="plasma alone")
+    panel.set(xlabel="distance of the centre from the axis / µm",
+              ylabel="velocity of a cell / (µm/s)", ylim=(0, None),
               xlim=(0, RADIUS))
     right = panel.twinx()
     right.plot(radius, [row["length"] for row in rows], "s", mfc="none", color="k", label="length")
     right.set(ylabel="length of a cell / µm")
-    panel.legend(*(sum(pair, []) for pair in zip(panel.get_legend_handles_labels(), right.get_legend_handles_labels())),
+    panel.legend(*(sum(pair, []) for pair in zip(panel.get_legend_handles_labels(),
+                                                 right.get_legend_handles_labels())),
                  frameon=False, fontsize=8, loc="lower left")
     figure.savefig(path, dpi=85)
 
