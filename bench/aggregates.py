@@ -47,9 +47,11 @@ compute         agg all rbc/aggregate 0.5 area 0.1
 fix             sizes all ave/time 1 1 1 c_agg[1]
 run             {steps}
 """
-FIELDS = ("cells", "ranks", "case", "core_ms_per_step", "core_ms_per_call", "core_us_per_vertex_and_call", "MB_per_rank")
+FIELDS = ("cells", "ranks", "case", "core_ms_per_step", "core_ms_per_call",
+          "core_us_per_vertex_and_call", "MB_per_rank")
 CASES = ("without", "not called", "called", "called, area")
-SHAPES = {512: (8, 2), 4096: (16, 4), 49152: (32, 12)}    # cells: columns along x and y, times 4 cells of height
+# cells: columns along x and y, times 4 cells of height
+SHAPES = {512: (8, 2), 4096: (16, 4), 49152: (32, 12)}
 
 
 def run(cells, ranks, steps):
@@ -57,10 +59,13 @@ def run(cells, ranks, steps):
     columns, height = SHAPES[cells]
     name = f"in.{cells}"
     with open(name, "w", encoding="utf-8") as stream:
-        stream.write(SCENE.format(potentials=POTENTIALS, columns=columns, height=height, steps=steps))
-    command = [os.environ["MPIEXEC"], "-np", str(ranks), os.environ["LMP_RBC"], "-in", name, "-log", f"log.{cells}.{ranks}"]
+        stream.write(SCENE.format(potentials=POTENTIALS, columns=columns, height=height,
+                                  steps=steps))
+    command = [os.environ["MPIEXEC"], "-np", str(ranks), os.environ["LMP_RBC"], "-in", name, "-log",
+               f"log.{cells}.{ranks}"]
     printed = subprocess.run(command, check=True, text=True, stdout=subprocess.PIPE).stdout
-    found = {int(float(text)) for text in re.findall(r"^ +\d+ +([\d.e+]+) *$", printed, re.MULTILINE)}
+    found = {int(float(text))
+             for text in re.findall(r"^ +\d+ +([\d.e+]+) *$", printed, re.MULTILINE)}
     if found != {columns**2}:
         raise SystemExit(f"{cells} cells on {ranks} ranks: aggregates {found}, not {columns**2}")
     times = [float(text) for text in re.findall(r"^Loop time of (\S+)", printed, re.MULTILINE)]
@@ -74,7 +79,8 @@ def main():
     command_line.add_results(parser)
     parser.add_argument("--cells", type=int, nargs="+", default=[512, 4096], choices=SHAPES)
     parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2])
-    parser.add_argument("--vertex-steps", type=float, default=3e6, help="vertices times steps of each run")
+    parser.add_argument("--vertex-steps", type=float, default=3e6,
+                        help="vertices times steps of each run")
     options = command_line.parse(parser, HERE, ["LMP_RBC", "MPIEXEC"])
 
     with open(options.output / "aggregates.csv", "w", newline="", encoding="utf-8") as stream, \
@@ -87,8 +93,9 @@ def main():
                 vertices = 162 * cells
                 times, memory = run(cells, ranks, max(3, round(options.vertex_steps / vertices)))
                 for case, time, size in zip(CASES, times, memory):
-                    row = dict(zip(FIELDS, (cells, ranks, case, f"{time:.4g}", f"{time - times[0]:.3g}",
-                                            f"{1000 * (time - times[0]) / vertices:.3g}", f"{size:.4g}")))
+                    row = dict(
+                        zip(FIELDS, (cells, ranks, case, f"{time:.4g}", f"{time - times[0]:.3g}",
+                                     f"{1000 * (time - times[0]) / vertices:.3g}", f"{size:.4g}")))
                     table.writerow(row)
                     stream.flush()
                     print(" ".join(f"{name}={value}" for name, value in row.items()))

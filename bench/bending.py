@@ -32,7 +32,8 @@ def main():
         for axes, curves, scale in ((energies, ENERGIES, 1), (forces, FORCES, exact)):
             for number, (name, label, marker) in enumerate(curves):
                 error = [abs(float(row[name])) / scale for row in mine]
-                axes.loglog(spacing, error, marker + line, color=f"C{number}", label=f"{form}: {label}")
+                axes.loglog(spacing, error, marker + line, color=f"C{number}",
+                            label=f"{form}: {label}")
                 print(f"{form:9} {name:21} " + "  ".join(f"{e:9.2e}" for e in error))
         if form == "helfrich":
             guide = [0.5 * h * h for h in spacing]

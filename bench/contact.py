@@ -50,8 +50,9 @@ fix             membrane all rbc/membrane rbc neo-hookean 1e-30 volume no
 thermo          1000
 run             %(steps)d
 """
-ADHESIVE = "pair_style rbc/jkr 0.4\npair_coeff 1 1 adhesive 0.0628 1e-3 0.3\ncompute contact all pair rbc/jkr\n" \
-           "thermo_style custom step c_contact[1]"
+ADHESIVE = ("pair_style rbc/jkr 0.4\npair_coeff 1 1 adhesive 0.0628 1e-3 0.3\n"
+            "compute contact all pair rbc/jkr\n"
+            "thermo_style custom step c_contact[1]")
 CASES = {
     "repulsive": "pair_style rbc/jkr 0.3\npair_coeff 1 1 repulsive 0.0628 0.3",
     "adhesive": ADHESIVE,
@@ -72,7 +73,8 @@ def per_step(pair, check, few, many):
         used = []
         for steps in (few, many):
             before = processor_time()
-            result = run(SCRIPT % {"potentials": POTENTIALS, "pair": pair, "check": check, "steps": steps},
+            result = run(SCRIPT % {"potentials": POTENTIALS, "pair": pair, "check": check,
+                                   "steps": steps},
                          timeout=1200)
             used.append(processor_time() - before)
         times.append((used[1] - used[0]) / (many - few))
@@ -84,12 +86,14 @@ def main():
     command_line.add_results(parser)
     arguments = command_line.parse(parser, HERE, ["LMP_RBC"])
     rows = []
-    for check, few, many, what in (("yes", 5, 85, "evaluation"), ("no", 2, 12, "search and evaluation")):
+    for check, few, many, what in (("yes", 5, 85, "evaluation"),
+                                   ("no", 2, 12, "search and evaluation")):
         base, _ = per_step("", check, few, many)
         for name, pair in CASES.items():
             seconds, result = per_step(pair, check, few, many)
             rows.append([name, what, seconds - base, 1e6 * (seconds - base) / VERTICES])
-            print("{:10} {:22} {:6.1f} ms, {:.3f} us per vertex".format(name, what, 1e3 * rows[-1][2], rows[-1][3]),
+            print("{:10} {:22} {:6.1f} ms, {:.3f} us per vertex".format(
+                name, what, 1e3 * rows[-1][2], rows[-1][3]),
                   flush=True)
     print(f"area in contact: {2 * result.thermo['c_contact[1]'][-1] / 512:.1f} um^2 of each cell")
     with open(arguments.output / "contact.csv", "w", encoding="utf-8", newline="") as stream:

@@ -23,19 +23,23 @@ def main():
     settings = list(dict.fromkeys(row["setting"] for row in rows))
     figure, axes = plt.subplots(1, len(settings), figsize=(4.2 * len(settings), 3.8), sharey=True)
     for axis, setting in zip(axes, settings):
-        parameters = list(dict.fromkeys(row["parameter"] for row in rows if row["setting"] == setting))
+        parameters = list(
+            dict.fromkeys(row["parameter"] for row in rows if row["setting"] == setting))
         for kernel, style in STYLE.items():
             for number, parameter in enumerate(parameters):
                 of = [row for row in rows
-                      if (row["setting"], row["parameter"], row["kernel"]) == (setting, parameter, kernel)]
+                      if (row["setting"], row["parameter"], row["kernel"]) ==
+                      (setting, parameter, kernel)]
                 radius = [float(row["radius_over_dx"]) for row in of]
                 error = [abs(float(row["error_percent"])) for row in of]
                 name = "volume fraction" if setting == "array" else "a/l"
-                axis.loglog(radius, error, style, color=f"C{number}", label=f"{name} {parameter}, {kernel}")
+                axis.loglog(radius, error, style, color=f"C{number}",
+                            label=f"{name} {parameter}, {kernel}")
                 print(f"{setting:16} {parameter:>6} {kernel:8} "
                       + "  ".join(f"a/dx {r:.1f}: {e:.2f} %" for r, e in zip(radius, error)))
         axis.axhline(2, color="grey", linewidth=0.8)
-        axis.set_title({"array": "simple cubic array (Zick & Homsy)"}.get(setting, f"{setting} (Faxén's series)"))
+        axis.set_title({"array": "simple cubic array (Zick & Homsy)"}.get(
+            setting, f"{setting} (Faxén's series)"))
         axis.set_xlabel("hydrodynamic radius / dx")
         axis.legend(fontsize=7)
         axis.grid(alpha=0.3)

@@ -53,12 +53,14 @@ dump_modify     frames sort id format float %.17g
 timestep        {timestep:.17g}
 run             {steps}
 """
-MATERIALS = {    # material, modulus of the local area, strain, fastest relaxation for a first guess (1/us)
+# material, modulus of the local area, strain, fastest relaxation for a first guess (1/us)
+MATERIALS = {
     "healthy": ("healthy", 0.0, 10, 0.0016), "area-stiff": ("healthy", 0.6, 2, 0.05),
     "paper-table2": ("paper-table2", 0.0, 1, 1.6)}
 TARGETS = {"healthy": 1.5, "area-stiff": 2.5, "paper-table2": 20.0}
 FRAMES = 10
-FIELDS = ("material", "rate", "integrator", "timestep_us", "solves", "solves_per_ms", "error_um", "stable_limit_us")
+FIELDS = ("material", "rate", "integrator", "timestep_us", "solves", "solves_per_ms", "error_um",
+          "stable_limit_us")
 
 
 class Cell:
@@ -77,19 +79,21 @@ class Cell:
         every = math.ceil((end or self.end) / timestep / FRAMES - 1e-9)
         steps = FRAMES * every
         timestep = (end or self.end) / steps
-        script = SCENE.format(potentials=POTENTIALS, material=self.material, area=self.area, rate=self.rate,
+        script = SCENE.format(potentials=POTENTIALS, material=self.material, area=self.area,
+                              rate=self.rate,
                               integrator=integrator, timestep=timestep, steps=steps, every=every)
         with open("in.integrators", "w", encoding="ascii") as stream:
             stream.write(script)
-        printed = subprocess.run([self.options.lmp, "-in", "in.integrators", "-log", "none"], text=True, check=False,
-                                 capture_output=True).stdout
+        printed = subprocess.run([self.options.lmp, "-in", "in.integrators", "-log", "none"],
+                                 text=True, check=False, capture_output=True).stdout
         solves = re.search(r"(\d+) solves in", printed)
         rows = re.findall(r"^ +\d+ +\S+ +(\S+) *$", printed, re.MULTILINE)
         if not solves:
             return None
         with open("frames.dump", encoding="ascii") as stream:
             frames = stream.read().split("ITEM: ATOMS id xu yu zu\n")[2:]
-        table = np.array([[line.split()[1:] for line in frame.split("ITEM")[0].splitlines()] for frame in frames], dtype=float)
+        table = np.array([[line.split()[1:] for line in frame.split("ITEM")[0].splitlines()]
+                          for frame in frames], dtype=float)
         return table, float(rows[-1]), int(solves.group(1)), timestep
 
     def limit(self, integrator, guess):
@@ -129,8 +133,9 @@ def measure(options, rate, names):
             if result is None:
                 continue
             positions, _, solves, timestep = result
-            row = dict(zip(FIELDS, (name, rate, integrator, timestep, solves, 1e3 * solves / cell.end,
-                                    cell.error(positions), limits.get(integrator, ""))))
+            row = dict(
+                zip(FIELDS, (name, rate, integrator, timestep, solves, 1e3 * solves / cell.end,
+                             cell.error(positions), limits.get(integrator, ""))))
             print(row, flush=True)
             rows.append(row)
     return rows
@@ -147,33 +152,40 @@ def summary(rows):
     lines = []
     for name, target in TARGETS.items():
         for rate in sorted({float(row["rate"]) for row in rows}):
-            euler = next((row for row in rows if row["material"] == name and row["integrator"] == "euler" and
-                          float(row["rate"]) == rate), None)
+            euler = next(
+                (row for row in rows if row["material"] == name and row["integrator"] == "euler" and
+                 float(row["rate"]) == rate), None)
             if not euler:
                 continue
             best = fewest(rows, name, rate, float(euler["error_um"]))
-            stable = min((row for row in rows if row["material"] == name and float(row["rate"]) == rate),
+            stable = min((row for row in rows if row["material"] == name
+                          and float(row["rate"]) == rate),
                          key=lambda row: float(row["solves"]))
             ratio = float(euler["solves"]) / float(best["solves"]) if best else float("nan")
             lines.append(
                 f"{name:13} {rate:5.0f}/s: euler {float(euler['timestep_us']):8.3g} us, "
-                f"{float(euler['solves_per_ms']):8.4g} solves/ms, error {float(euler['error_um']):.2g} um; "
-                + (f"{best['integrator']} {float(best['timestep_us']):.4g} us, error {float(best['error_um']):.2g} um: "
+                f"{float(euler['solves_per_ms']):8.4g} solves/ms, error "
+                f"{float(euler['error_um']):.2g} um; "
+                + (f"{best['integrator']} {float(best['timestep_us']):.4g} us, error "
+                   f"{float(best['error_um']):.2g} um: "
                    f"{ratio:.1f} times fewer (target {target})" if best else "nothing as good")
                 + f"; fewest of all {float(euler['solves']) / float(stable['solves']):.0f} times "
-                f"({stable['integrator']} {float(stable['timestep_us']):.4g} us, error {float(stable['error_um']):.2g} um)")
+                f"({stable['integrator']} {float(stable['timestep_us']):.4g} us, error "
+                  f"{float(stable['error_um']):.2g} um)")
     return lines
 
 
 def draw(rows, path):
     rates = sorted({float(row["rate"]) for row in rows})
     figure, axes = plt.subplots(len(rates), 3, figsize=(13, 4 * len(rates)), squeeze=False)
-    marks = {"euler": "ks-", "midpoint": "C0o-", "ab2": "C2^-", "rkc auto": "C1v-", "rkc auto order 3": "C3D-"}
+    marks = {"euler": "ks-", "midpoint": "C0o-", "ab2": "C2^-", "rkc auto": "C1v-",
+             "rkc auto order 3": "C3D-"}
     for across, rate in zip(axes, rates):
         for axis, name in zip(across, MATERIALS):
             for integrator, mark in marks.items():
                 points = sorted((float(r["solves_per_ms"]), float(r["error_um"])) for r in rows if
-                                r["material"] == name and r["integrator"] == integrator and float(r["rate"]) == rate)
+                                r["material"] == name and r["integrator"] == integrator
+                                and float(r["rate"]) == rate)
                 if points:
                     axis.loglog(*zip(*points), mark, label=integrator, markersize=5)
             axis.set_title(f"{name}, {rate:g}/s")
@@ -189,7 +201,8 @@ def main():
     parser = command_line.parser(__doc__)
     command_line.add_results(parser)
     parser.add_argument("--lmp", type=Path, default=HERE.parent / "build" / "lmp_rbc")
-    parser.add_argument("--rates", type=float, nargs="+", default=[10, 100], help="shear rates, 1/s")
+    parser.add_argument("--rates", type=float, nargs="+", default=[10, 100],
+                        help="shear rates, 1/s")
     parser.add_argument("--materials", nargs="*", choices=MATERIALS, default=list(MATERIALS),
                         help="measured anew; what the table has of others stays")
     options = command_line.parse(parser, HERE)
@@ -202,7 +215,8 @@ def main():
     try:
         with open(table, encoding="ascii") as stream:
             rows = [row for row in csv.DictReader(stream)
-                    if row["material"] not in options.materials or float(row["rate"]) not in options.rates]
+                    if row["material"] not in options.materials
+                    or float(row["rate"]) not in options.rates]
     except FileNotFoundError:
         rows = []
     with open(table, "w", newline="", encoding="ascii") as stream:

@@ -51,13 +51,15 @@ def alone(path):
 
 
 def in_a_run(vertices, bending, volume):
-    script = SCRIPT % {"potentials": POTENTIALS, "vertices": vertices, "bending": bending, "volume": volume,
+    script = SCRIPT % {"potentials": POTENTIALS, "vertices": vertices, "bending": bending,
+                       "volume": volume,
                        "steps": 128400 // vertices}
     times = []
     for _ in range(REPEATS):
         printed = run(script, 1).printed
         last = printed[printed.rindex("USER-RBC step cost"):]
-        times.append(1000 * float(re.search(r"^Membrane *\|[^|]*\| *(\S+)", last, re.MULTILINE).group(1)))
+        times.append(
+            1000 * float(re.search(r"^Membrane *\|[^|]*\| *(\S+)", last, re.MULTILINE).group(1)))
     what = "mooney-rivlin" + (", volume kept" if volume == "yes" else "")
     return {"where": "run", "what": what, "bending": bending, "vertices": vertices, "times": times}
 
@@ -72,11 +74,13 @@ def main():
              for bending in ("dihedral", "helfrich") for vertices in (642, 2562)]
     with open(arguments.output / "membrane.csv", "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["where", "what", "bending", "vertices", "least_ns_per_vertex", "median_ns_per_vertex"])
+        writer.writerow(["where", "what", "bending", "vertices", "least_ns_per_vertex",
+                         "median_ns_per_vertex"])
         for row in rows:
             times = row.pop("times")
             writer.writerow([*row.values(), f"{min(times):.1f}", f"{statistics.median(times):.1f}"])
-            print(f"{row['where']:6} {row['what']:28} {row['bending']:9} {row['vertices']:>5} vertices:"
+            print(f"{row['where']:6} {row['what']:28} {row['bending']:9} {row['vertices']:>5} "
+                  "vertices:"
                   f" {min(times):6.1f} ns per vertex, median {statistics.median(times):6.1f}")
 
 

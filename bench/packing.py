@@ -38,7 +38,8 @@ SCRIPT = """
     run        0 post no\n"""
 
 # template, cells, hematocrit, between plates, seed, ranks
-CASES = [("rbc_162", 512, hematocrit, plates, 4711, ranks) for hematocrit in (0.45, 0.50) for plates in (False, True)
+CASES = [("rbc_162", 512, hematocrit, plates, 4711, ranks) for hematocrit in (0.45, 0.50)
+         for plates in (False, True)
          for ranks in (2, 1, 4)]
 CASES += [("rbc_162", 512, 0.50, False, seed, 2) for seed in range(1, 8)]
 CASES += [("rbc_162", 128, hematocrit, False, 4711, 2) for hematocrit in (0.55, 0.60)]
@@ -54,9 +55,10 @@ def pack(template, cells, hematocrit, plates, seed, ranks):
     volume = cells * (a * np.cross(b, c)).sum() / 6 / hematocrit
     height = PLATES if plates else volume**(1 / 3)
     width = np.sqrt(volume / height)
-    result = run(SCRIPT % {"boundary": "f" if plates else "p", "width": width, "height": height, "cells": cells,
-                           "potentials": POTENTIALS, "template": template, "seed": seed,
-                           "dump": dump_line(1, columns="id xu yu zu").replace("\n", "\n    ")}, ranks, timeout=3600)
+    result = run(SCRIPT % {
+        "boundary": "f" if plates else "p", "width": width, "height": height, "cells": cells,
+        "potentials": POTENTIALS, "template": template, "seed": seed,
+        "dump": dump_line(1, columns="id xu yu zu").replace("\n", "\n    ")}, ranks, timeout=3600)
     places = result.dump().positions().reshape(cells, len(points), 3)
     return result, places, triangles, np.array([width, width, height])
 
@@ -90,14 +92,16 @@ def processor_time():
 
 def measure(case, reference, output):
     template, cells, hematocrit, plates, seed, ranks = case
-    row = {"template": template, "cells": cells, "hematocrit": hematocrit, "box": "plates" if plates else "periodic",
-           "seed": seed, "ranks": ranks, "oversubscribed": "yes" if ranks > len(os.sched_getaffinity(0)) else "no",
+    row = {"template": template, "cells": cells, "hematocrit": hematocrit,
+           "box": "plates" if plates else "periodic", "seed": seed, "ranks": ranks,
+           "oversubscribed": "yes" if ranks > len(os.sched_getaffinity(0)) else "no",
            "load_average": f"{os.getloadavg()[0]:.1f}", "packed": hematocrit}
     spent = processor_time()
     try:
         result, places, triangles, box = pack(*case)
     except Failed as failure:
-        row["packed"] = re.search(r"densest reached is a volume fraction of (\S+)", failure.result.error).group(1)
+        row["packed"] = re.search(r"densest reached is a volume fraction of (\S+)",
+                                  failure.result.error).group(1)
         print(*row.values(), sep=", ", flush=True)
         return row, None
     spent = processor_time() - spent
@@ -105,7 +109,8 @@ def measure(case, reference, output):
     axes = short_axes(places)
     if plates:    # a cell next to a plate can only lie flat
         from_plates = np.minimum(places[..., 2], PLATES - places[..., 2]).mean(axis=1)
-        axes = axes[from_plates > 2 * np.linalg.norm(places[0] - places[0].mean(axis=0), axis=1).max()]
+        axes = axes[
+            from_plates > 2 * np.linalg.norm(places[0] - places[0].mean(axis=0), axis=1).max()]
     samples = [largest_order(isotropic_axes(random, len(axes))) for _ in range(SAMPLES)]
     same = ""
     if case[:5] in reference:
@@ -115,17 +120,21 @@ def measure(case, reference, output):
     row |= {"run_time_s": float(re.search(r"rbc/create CPU = (\S+)", result.printed).group(1)),
             "processor_time_s": f"{spent:.2f}",
             "attempts": int(re.search(r"Packed cells in (\d+)", result.printed).group(1)),
-            "least_gap_um": "", "cells_a_diameter_from_plates": len(axes), "order": f"{largest_order(axes):.4f}",
+            "least_gap_um": "", "cells_a_diameter_from_plates": len(axes),
+            "order": f"{largest_order(axes):.4f}",
             "isotropic_share_above": f"{np.mean(samples >= largest_order(axes)):.3f}",
             "mean_square_of_axis_x_y_z": " ".join(f"{x:.3f}" for x in (axes**2).mean(axis=0)),
             "same_as_first_ranks": same}
     if not same:
-        gap = least_gap([(place, triangles) for place in places], box, (True, True, not plates), 0.2)
+        gap = least_gap([(place, triangles) for place in places], box, (True, True, not plates),
+                        0.2)
         row["least_gap_um"] = f"{gap:.5f}"
     print(*row.values(), sep=", ", flush=True)
     if case[:5] == PICTURE and not same:
-        picture = ["--box", "0", f"{box[0]}", "0", f"{box[1]}", "0", f"{box[2]}", "--plates", "--view", "25", "22"]
-        subprocess.run([sys.executable, HERE.parent / "scripts" / "render_cells.py", result.path("cells.0.vtp"), "-o",
+        picture = ["--box", "0", f"{box[0]}", "0", f"{box[1]}", "0", f"{box[2]}", "--plates",
+                   "--view", "25", "22"]
+        subprocess.run([sys.executable, HERE.parent / "scripts" / "render_cells.py",
+                        result.path("cells.0.vtp"), "-o",
                         output / "packing-cells.png", *picture], check=True)
     return row, axes
 
@@ -137,7 +146,8 @@ def plot(directions, path):
     grid = np.linspace(0, 1, 200)
     for panel, ((_, _, hematocrit, plates, _), axes) in zip(panels, directions.items()):
         for d, name in enumerate("xyz"):
-            panel.plot(np.sort(abs(axes[:, d])), (np.arange(len(axes)) + 0.5) / len(axes), label=name)
+            panel.plot(np.sort(abs(axes[:, d])), (np.arange(len(axes)) + 0.5) / len(axes),
+                       label=name)
         band = 1.36 / np.sqrt(len(axes))    # Kolmogorov and Smirnov, 95 %
         panel.fill_between(grid, grid - band, grid + band, color="0.85", label="isotropic, 95 %")
         panel.set_title(f"{hematocrit:.0%}, {'plates' if plates else 'periodic'}")
@@ -150,10 +160,12 @@ def plot(directions, path):
 def main():
     parser = command_line.parser(__doc__)
     command_line.add_results(parser)
-    parser.add_argument("--quick", action="store_true", help="64 cells at most; prints the table and writes none")
+    parser.add_argument("--quick", action="store_true",
+                        help="64 cells at most; prints the table and writes none")
     arguments = command_line.parse(parser, HERE, ["LMP_RBC", "MPIEXEC"])
     quick = arguments.quick
-    cases = [(template, 64, *rest) for template, cells, *rest in CASES if cells <= 512] if quick else CASES
+    cases = ([(template, 64, *rest) for template, cells, *rest in CASES if cells <= 512]
+             if quick else CASES)
     rows, reference, directions = [], {}, {}
     with tempfile.TemporaryDirectory() as scratch:
         os.chdir(scratch)

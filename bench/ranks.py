@@ -13,7 +13,8 @@ import tempfile
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE.parent / folder) for folder in ("tests/helpers", "tests/scenes", "scripts")]
+sys.path[:0] = [str(HERE.parent / folder)
+                for folder in ("tests/helpers", "tests/scenes", "scripts")]
 from rbc import command_line  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
@@ -49,7 +50,8 @@ def compare(name):
     for frame, step in enumerate(alone.steps):
         there = alone.positions(frame)
         row = {"scene": name, "step": step,
-               "moved_diameters": f"{np.linalg.norm(there - alone.positions(0), axis=1).max() / diameter:.4g}"}
+               "moved_diameters":
+                   f"{np.linalg.norm(there - alone.positions(0), axis=1).max() / diameter:.4g}"}
         for ranks in RANKS[1:]:
             apart = np.linalg.norm(dumps[ranks].positions(frame) - there, axis=1).max() / diameter
             row[f"apart_{ranks}_ranks"] = f"{apart:.3g}"
@@ -63,7 +65,8 @@ def draw(rows, path):
     for n, name in enumerate(SCENES):
         mine = [row for row in rows if row["scene"] == name and int(row["step"]) > 0]
         for ranks, style in zip(RANKS[1:], ("-", "--")):
-            axes.semilogy([int(row["step"]) for row in mine], [float(row[f"apart_{ranks}_ranks"]) for row in mine],
+            axes.semilogy([int(row["step"]) for row in mine],
+                          [float(row[f"apart_{ranks}_ranks"]) for row in mine],
                           style, color=f"C{n}", label=f"{name}, {ranks} ranks")
     axes.axhline(BOUND, color="0.6", lw=1)
     axes.set(xlabel="step", ylabel="largest distance from a vertex on 1 rank (diameters)")
@@ -89,9 +92,10 @@ def main():
             mine = compare(name)
             rows += mine
             below = list(itertools.takewhile(
-                lambda row: max(float(row[f"apart_{ranks}_ranks"]) for ranks in RANKS[1:]) < BOUND, mine))
-            print(f"{name}: below {BOUND:g} diameters to step {below[-1]['step']} (moved {below[-1]['moved_diameters']}); "
-                  "at the end", mine[-1], flush=True)
+                lambda row: max(float(row[f"apart_{ranks}_ranks"]) for ranks in RANKS[1:]) < BOUND,
+                mine))
+            print(f"{name}: below {BOUND:g} diameters to step {below[-1]['step']} (moved "
+                  f"{below[-1]['moved_diameters']}); at the end", mine[-1], flush=True)
     with open(path, "w", newline="", encoding="ascii") as file:
         writer = csv.DictWriter(file, rows[0].keys(), lineterminator="\n")
         writer.writeheader()

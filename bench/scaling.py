@@ -67,18 +67,23 @@ LINES = {("fluid", "default"): ("C0", "o", "-"), ("fluid", "* * 1"): ("C0", "s",
 def measure(scene, ranks, layout):
     """Of the second run of the script, in which the flow no longer starts."""
     script, steps, _ = SCENES[scene]
-    printed = run(script % {"layout": LAYOUTS[layout], "steps": steps, "potentials": POTENTIALS}, ranks).printed
+    printed = run(script % {"layout": LAYOUTS[layout], "steps": steps, "potentials": POTENTIALS},
+                  ranks).printed
     last = printed[printed.rindex("USER-RBC step cost"):]
-    fluid = re.search(r"Fluid: (\S+) messages and (\S+) bytes per step and MPI task, (\S+) bytes", last)
+    fluid = re.search(r"Fluid: (\S+) messages and (\S+) bytes per step and MPI task, (\S+) bytes",
+                      last)
     messages, size, memory = (float(number) for number in fluid.groups())
     row = {"scene": scene, "ranks": ranks, "oversubscribed": "yes" if ranks > CORES else "no",
            "layout": layout if ranks > 1 else "any",
-           "processors": re.search(r"(\d+) by (\d+) by (\d+) MPI", printed).expand(r"\1x\2x\3"), "steps": steps,
+           "processors": re.search(r"(\d+) by (\d+) by (\d+) MPI", printed).expand(r"\1x\2x\3"),
+           "steps": steps,
            "run_time_s": float(re.search(r"Loop time of (\S+)", last).group(1)), "speed_up": 1.0,
-           "messages_per_step_and_rank": messages, "bytes_per_step_and_rank": size, "memory_bytes_per_cell": memory}
+           "messages_per_step_and_rank": messages, "bytes_per_step_and_rank": size,
+           "memory_bytes_per_cell": memory}
     for section in SECTIONS:
         cost = re.search(rf"^{section} *\| *(\S+)", last, re.MULTILINE)
-        row[f"{section.lower()}_core_ms_per_solve"] = f"{1000 * float(cost.group(1)):.4g}" if cost else ""
+        row[f"{section.lower()}_core_ms_per_solve"] = (f"{1000 * float(cost.group(1)):.4g}"
+                                                       if cost else "")
     return row
 
 
@@ -90,15 +95,18 @@ def draw(rows, path):
         ranks = [row["ranks"] for row in mine]
         for axes, name, unit in ((faster, "speed_up", 1), (traffic, "bytes_per_step_and_rank", 1e6),
                                  (memory, "memory_bytes_per_cell", 1)):
-            axes.plot(ranks, [row[name] / unit for row in mine], color=color, marker=marker, ls=style,
-                      mfc="white" if marker == "s" else None, label=f"{SCENES[scene][2]}, processors {layout}")
+            axes.plot(ranks, [row[name] / unit for row in mine], color=color, marker=marker,
+                      ls=style, mfc="white" if marker == "s" else None,
+                      label=f"{SCENES[scene][2]}, processors {layout}")
         for row in mine[1:]:
             place = row["ranks"], row["bytes_per_step_and_rank"] / 1e6
-            traffic.annotate(f"{row['messages_per_step_and_rank']:.3g}", place, (0, -14 if layout == "default" else 7),
+            traffic.annotate(f"{row['messages_per_step_and_rank']:.3g}", place,
+                             (0, -14 if layout == "default" else 7),
                              textcoords="offset points", ha="center", size=8, color=color)
     faster.plot(RANKS, RANKS, color="0.6", lw=1, label="ideal")
     faster.legend(fontsize=8)
-    for axes, title in ((faster, "speed-up of a run"), (traffic, "MB per step and rank (labels: messages)"),
+    for axes, title in ((faster, "speed-up of a run"),
+                        (traffic, "MB per step and rank (labels: messages)"),
                         (memory, "memory of the flow, bytes per cell")):
         axes.set_title(title, size=11)
         axes.set_xlabel("ranks" + f" (shaded: they share {CORES} cores)" * (CORES < max(RANKS)))
@@ -125,7 +133,8 @@ def draw(rows, path):
 def main():
     parser = command_line.parser(__doc__)
     command_line.add_results(parser)
-    parser.add_argument("--repeats", type=int, default=3, help="runs of each case, of which the quickest counts")
+    parser.add_argument("--repeats", type=int, default=3,
+                        help="runs of each case, of which the quickest counts")
     cases = [(scene, ranks, layout) for scene in SCENES for ranks in RANKS for layout in LAYOUTS
              if ranks > 1 or layout == "default"]
     arguments = command_line.parse(parser, HERE, ["LMP_RBC", "MPIEXEC"])
@@ -138,7 +147,8 @@ def main():
     alone = {row["scene"]: row["run_time_s"] for row in rows if row["ranks"] == 1}
     for row in rows:
         row["speed_up"] = round(alone[row["scene"]] / row["run_time_s"], 2)
-        print("{scene:10} {ranks} rank(s) ({processors}) {run_time_s:8.3f} s, speed-up {speed_up:.2f}".format(**row)
+        print("{scene:10} {ranks} rank(s) ({processors}) {run_time_s:8.3f} s, speed-up "
+              "{speed_up:.2f}".format(**row)
               + f", {row['ranks']} ranks share {CORES} cores" * (row["ranks"] > CORES))
     with open(arguments.output / "scaling.csv", "w", newline="") as file:
         writer = csv.DictWriter(file, rows[0].keys(), lineterminator="\n")

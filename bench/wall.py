@@ -14,7 +14,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from program_table import folder_with  # noqa: E402
 
-CASES = {"base": "radius 14 dx, markers 1.2 dx apart", "closer": "radius 14 dx, markers 0.6 dx apart",
+CASES = {"base": "radius 14 dx, markers 1.2 dx apart",
+         "closer": "radius 14 dx, markers 0.6 dx apart",
          "finer": "radius 28 dx, markers 1.2 dx apart"}
 COLORS = {"plain": "tab:gray", "preconditioned": "tab:blue", "recycled": "tab:red"}
 
