@@ -9,7 +9,8 @@ ADHESIVE = f"pair_coeff * * adhesive {K} {SIGMA} {R}"
 REPULSIVE = f"pair_coeff * * repulsive {K} {R}"
 
 # Two cells face to face, so near that some vertices are inside the other, and out of shape.
-TWO = ("rbc/create rbc single 6.1 6.2 4.6 rotate 30 1 0.2 0\nrbc/create rbc single 6.4 6 6.6 rotate 33 1 0.15 0\n"
+TWO = ("rbc/create rbc single 6.1 6.2 4.6 rotate 30 1 0.2 0\n"
+       "rbc/create rbc single 6.4 6 6.6 rotate 33 1 0.15 0\n"
        "displace_atoms all random 0.03 0.03 0.03 11")
 COMPUTES = "\n".join([
     "compute pe all pe pair", "compute ea all pe/atom pair", "compute sa all stress/atom NULL pair",
@@ -23,9 +24,11 @@ RADIUS = 3.91    # of discs
 
 def contact(coeff=ADHESIVE, pair="pair_style rbc/jkr 0.5", **changes):
     """Membranes without forces and no fluid: atoms stay, and feel contact only."""
-    lines = dict(boundary="boundary p p p", cells=TWO, neighbor="neighbor 0.5 bin", before=f"{pair}\n{coeff}",
-                 membrane="fix mem all rbc/membrane rbc neo-hookean 1e-30 volume no", fluid=None, ib=None,
-                 compute=COMPUTES, thermo=THERMO, dump=dump_line(1, columns="id mol type xu yu zu fx fy fz"))
+    lines = dict(
+        boundary="boundary p p p",
+        cells=TWO, neighbor="neighbor 0.5 bin", before=f"{pair}\n{coeff}",
+        membrane="fix mem all rbc/membrane rbc neo-hookean 1e-30 volume no", fluid=None, ib=None,
+        compute=COMPUTES, thermo=THERMO, dump=dump_line(1, columns="id mol type xu yu zu fx fy fz"))
     lines.update(changes)
     return scene(**lines)
 

@@ -47,7 +47,8 @@ class DuringARun(unittest.TestCase):
         self.assertTrue(position, result.printed)
         if dumped:
             dump = result.dump()
-            last = step - 1 if step % 2 else step - 2    # what happens in a step comes before its output
+            # what happens in a step comes before its output
+            last = step - 1 if step % 2 else step - 2
             self.assertEqual(dump.steps, list(range(0, last + 1, 2)), result.error)
             self.assertTrue(all(frame.shape == (162, 9) for frame in dump.frames))
         return result, step, np.array([float(x) for x in position.groups()])

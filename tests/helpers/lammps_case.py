@@ -41,7 +41,8 @@ SHEAR = {
     "cells": "rbc/create rbc single 6 6 6 rotate 30 1 0 0",
     "neighbor": "neighbor 1.0 bin",
     "before": "",
-    "membrane": "fix mem all rbc/membrane rbc mooney-rivlin 0.257 0.0257 0.01 bending 2.0e-4 volume yes",
+    "membrane": "fix mem all rbc/membrane rbc mooney-rivlin 0.257 0.0257 0.01 bending 2.0e-4 "
+                "volume yes",
     "fluid": "fix flow all rbc/fluid dx 1.0 viscosity 1.5 density 1.025 inertia none"
              " wall zlo 0 0 0 wall zhi 0.0012 0 0",
     "ib": "fix ib all rbc/ib flow kernel peskin4 integrator midpoint",
@@ -80,10 +81,12 @@ def scene(base=SHEAR, **changes):
 
 
 def push(forces):
-    """Lines of a script that add these forces, a row for each atom, and the files that they need."""
+    """Lines of a script that add these forces, a row for each atom, and the files that they
+    need."""
     columns = {f"f{axis}": forces[:, d].tolist() for d, axis in enumerate("xyz")}
     lines = [f"variable {name} atomfile {name}.txt" for name in columns]
-    files = {f"{name}.txt": f"{len(values)}\n" + "".join(f"{n} {value!r}\n" for n, value in enumerate(values, 1))
+    files = {f"{name}.txt": f"{len(values)}\n" +
+             "".join(f"{n} {value!r}\n" for n, value in enumerate(values, 1))
              for name, values in columns.items()}
     return "\n".join([*lines, "fix push all addforce v_fx v_fy v_fz"]), files
 
@@ -105,7 +108,8 @@ class Result:
     @property
     def error(self):
         """The error message with its line of the script, in one line."""
-        found = re.search(r"^ERROR(?: on proc \d+)?: (.*\n(?:Last input line:.*)?)", self.printed, re.MULTILINE)
+        found = re.search(r"^ERROR(?: on proc \d+)?: (.*\n(?:Last input line:.*)?)", self.printed,
+                          re.MULTILINE)
         return " ".join(found.group(1).split()) if found else ""
 
     def tables(self):
@@ -143,7 +147,8 @@ class Dump:
             head, body = re.split(r"^ITEM: (?=ATOMS|GRID CELLS)", block, flags=re.MULTILINE)
             self.steps.append(int(head.split()[0]))
             count = int(np.prod([int(word) for word in
-                                 re.search(r"ITEM: (?:NUMBER OF ATOMS|GRID SIZE.*)\n(.*)", head).group(1).split()]))
+                                 re.search(r"ITEM: (?:NUMBER OF ATOMS|GRID SIZE.*)\n(.*)", head)
+                                 .group(1).split()]))
             names, *rows = body.splitlines()
             self.columns = names.split()[2 if names.startswith("GRID") else 1:]
             data = np.array(" ".join(rows).split(), dtype=float)
@@ -180,14 +185,15 @@ def read_template(path):
 
 def make_template(*words):
     """Runs potentials/make_template.py."""
-    done = subprocess.run([sys.executable, POTENTIALS / "make_template.py", *map(str, words)], text=True,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+    done = subprocess.run([sys.executable, POTENTIALS / "make_template.py", *map(str, words)],
+                          text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
     if done.returncode:
         raise AssertionError(done.stdout)
 
 
 def dump_line(every, name="atoms.dump", columns="id mol type xu yu zu fx fy fz"):
-    return f"dump atoms all custom {every} {name} {columns}\ndump_modify atoms sort id format float %.17g"
+    return (f"dump atoms all custom {every} {name} {columns}\n"
+            "dump_modify atoms sort id format float %.17g")
 
 
 _numbers = itertools.count(1)
@@ -202,7 +208,8 @@ class Job:
 
     def __init__(self, script, ranks=1, plugin=False, files=None, prepare=None, before=None):
         if plugin and os.environ.get("RBC_SANITIZE"):
-            raise unittest.SkipTest("the runtime of the sanitizers is in lmp_rbc, not in stock LAMMPS")
+            raise unittest.SkipTest(
+                "the runtime of the sanitizers is in lmp_rbc, not in stock LAMMPS")
         self.folder = Path.cwd() / f"case{next(_numbers)}"
         shutil.rmtree(self.folder, ignore_errors=True)
         self.folder.mkdir()
@@ -217,12 +224,13 @@ class Job:
         command = [executable, "-in", "in.case", "-log", "log.case"]
         if ranks > 1:    # one rank starts faster by itself
             command = [os.environ["MPIEXEC"], "-np", str(ranks), *command]
-        # A run that ends removes the folder of Open MPI's sessions, which another may be about to use.
+        # A run that ends removes the folder of Open MPI's sessions, which another may be about to
+        # use.
         self._session = TemporaryDirectory()
         with open(self.folder / "printed", "w") as output:
             self.process = subprocess.Popen(
-                command, cwd=self.folder, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
-                preexec_fn=before, restore_signals=before is None,
+                command, cwd=self.folder, stdin=subprocess.DEVNULL, stdout=output,
+                stderr=subprocess.STDOUT, preexec_fn=before, restore_signals=before is None,
                 env={**os.environ, **ENVIRONMENT, "OMPI_MCA_orte_tmpdir_base": self._session.name,
                      "PRTE_MCA_prte_tmpdir_base": self._session.name})
 
