@@ -26,7 +26,8 @@ def random_directions(shape, random):
 
 def lattice(sites, number):
     """number^3 cells of side 1, each with the sites."""
-    corners = np.stack(np.meshgrid(*3 * [np.arange(number)], indexing="ij"), axis=-1).reshape(-1, 1, 3)
+    corners = np.stack(np.meshgrid(*3 * [np.arange(number)], indexing="ij"),
+                       axis=-1).reshape(-1, 1, 3)
     return (corners + np.asarray(sites)).reshape(-1, 3)
 
 
@@ -43,7 +44,8 @@ class RadialDistribution(unittest.TestCase):
             edges = np.sort([r + d for r in shells for d in (-0.01, 0.01)])
             axes = np.tile([0.0, 0.0, 1.0], (1, len(points), 1))
             found = pair_statistics(box, points[None], axes, np.append(0, edges))
-            np.testing.assert_allclose(found.neighbours[1::2], np.cumsum(list(shells.values())), rtol=1e-12)
+            np.testing.assert_allclose(found.neighbours[1::2], np.cumsum(list(shells.values())),
+                                       rtol=1e-12)
             np.testing.assert_array_equal(found.radial[::2], 0)
             volumes = 4 / 3 * np.pi * np.diff(np.append(0, edges)**3)[1::2]
             expected = np.array(list(shells.values())) / volumes / ((len(points) - 1) / 125)
@@ -56,24 +58,29 @@ class RadialDistribution(unittest.TestCase):
         for boundary in ("ppp", "ppf", "fff"):
             lengths = np.array([10, 12, 7])
             box = box_of(lengths, boundary)
-            points, axes = random.uniform(0, lengths, (frames, cells, 3)), random_directions((frames, cells), random)
+            points, axes = (random.uniform(0, lengths, (frames, cells, 3)),
+                            random_directions((frames, cells), random))
             edges = np.linspace(0, box.longest_distance(), 12)
             found = pair_statistics(box, points, axes, edges)
-            shells = 4 / 3 * np.pi * np.diff(edges**3) * box.share_inside(found.middles) / lengths.prod()
+            shells = (4 / 3 * np.pi * np.diff(edges**3) * box.share_inside(found.middles) /
+                      lengths.prod())
             count = frames * cells * (cells - 1) / 2 * shells
-            self.assertTrue((np.abs(found.radial - 1) < 5 / np.sqrt(count) + 2e-3).all(), (boundary, found.radial))
-            self.assertTrue((np.abs(found.order - 0.5) < 5 / np.sqrt(12 * count)).all(), (boundary, found.order))
+            self.assertTrue((np.abs(found.radial - 1) < 5 / np.sqrt(count) + 2e-3).all(),
+                            (boundary, found.radial))
+            self.assertTrue((np.abs(found.order - 0.5) < 5 / np.sqrt(12 * count)).all(),
+                            (boundary, found.order))
 
     def test_share_inside_a_slab(self):
         # the mean over directions of 1 - r |cos| / H where that is positive
         for height in (3.0, 7.0):
             r = np.array([0.5, 1.0, 3.0, 4.0, 7.0, 10.0])
             expected = np.where(r <= height, 1 - r / (2 * height), height / (2 * r))
-            np.testing.assert_allclose(box_of([20, 20, height], "ppf").share_inside(r), expected, rtol=1e-6)
+            np.testing.assert_allclose(box_of([20, 20, height], "ppf").share_inside(r), expected,
+                                       rtol=1e-6)
 
     def test_share_inside_a_cube(self):
-        # covariogram of a cube, averaged over directions, up to its side (Santalo, Integral Geometry): 1 - 3 r / 2 +
-        # 2 r^2 / pi - r^3 / (4 pi)
+        # covariogram of a cube, averaged over directions, up to its side (Santalo, Integral
+        # Geometry): 1 - 3 r / 2 + 2 r^2 / pi - r^3 / (4 pi)
         r = np.array([0.1, 0.5, 1.0])
         np.testing.assert_allclose(box_of([1, 1, 1], "fff").share_inside(r),
                                    1 - 1.5 * r + 2 * r**2 / np.pi - r**3 / (4 * np.pi), atol=1e-3)
@@ -81,7 +88,8 @@ class RadialDistribution(unittest.TestCase):
 
 class RouleauOrder(unittest.TestCase):
     def stack(self, angles, spacing=2.5, sideways=0.0):
-        """Cells one above the other across the side of the box, with short axes at these angles to z."""
+        """Cells one above the other across the side of the box, with short axes at these angles to
+        z."""
         angles = np.asarray(angles)
         n = np.arange(len(angles))
         centres = np.column_stack([sideways + 0 * n, 5 + 0 * n, 11 + spacing * n])
@@ -130,10 +138,12 @@ class Command(unittest.TestCase):
                     numbers = [2 * row, *position, *[0] * 9, *axis, 0, 0, 0]
                     stream.write(f"{row} " + " ".join(map(repr, map(float, numbers))) + "\n")
         with open(folder / "member.dat", "w") as stream:
-            stream.write("# Time-averaged data for fix m\n# TimeStep Number-of-rows\n# Row c_member\n")
+            stream.write("# Time-averaged data for fix m\n# TimeStep Number-of-rows\n"
+                         "# Row c_member\n")
             for step in (*self.steps, 1500):
                 stream.write(f"{step} {len(centres[0])}\n")
-                stream.writelines(f"{row} {2 if row < 4 else 2 * row}\n" for row in range(1, len(centres[0]) + 1))
+                stream.writelines(f"{row} {2 if row < 4 else 2 * row}\n"
+                                  for row in range(1, len(centres[0]) + 1))
 
     def run_command(self, centres, axes, *options):
         with tempfile.TemporaryDirectory() as name:
@@ -141,10 +151,12 @@ class Command(unittest.TestCase):
             self.write(folder, centres, axes)
             printed = io.StringIO()
             with contextlib.redirect_stdout(printed):
-                statistics.main([str(folder / "cell.dat"), "--box", *"0 20 0 20 0 20".split(), "--boundary", *"ppf",
-                                      "-o", str(folder / "out"), "--timestep", "0.1", *options])
+                statistics.main([str(folder / "cell.dat"), "--box", *"0 20 0 20 0 20".split(),
+                                 "--boundary", *"ppf",
+                                 "-o", str(folder / "out"), "--timestep", "0.1", *options])
             self.assertGreater((folder / "out.png").stat().st_size, 10000)
-            return printed.getvalue(), read_table(folder / "out-pairs.dat"), read_table(folder / "out-paths.dat")
+            return (printed.getvalue(), read_table(folder / "out-pairs.dat"),
+                    read_table(folder / "out-paths.dat"))
 
     def test_paths_are_the_centres(self):
         random = np.random.default_rng(3)
@@ -164,10 +176,12 @@ class Command(unittest.TestCase):
         names = [name for name in paths if name.startswith("z_")]
         self.assertEqual(len(set(names)), 5)
         for name in names:
-            np.testing.assert_allclose(paths[name], centres[:, int(name[2:]) // 2 - 1, 2], rtol=1e-7)
+            np.testing.assert_allclose(paths[name], centres[:, int(name[2:]) // 2 - 1, 2],
+                                       rtol=1e-7)
 
     def test_frames_and_members(self):
-        # three cells of one aggregate in a stack and two at right angles to it that are near but not of it
+        # three cells of one aggregate in a stack and two at right angles to it that are near but
+        # not of it
         centres = np.array([[5, 5, 5], [5, 5, 7], [5, 5, 9], [6, 5, 6], [6, 5, 8]], dtype=float)
         axes = np.array([[0, 0, 1]] * 3 + [[1, 0, 0]] * 2, dtype=float)
         with tempfile.TemporaryDirectory() as name:
@@ -175,11 +189,13 @@ class Command(unittest.TestCase):
             self.write(folder, [centres] * 3, [axes] * 3)
             printed = io.StringIO()
             with contextlib.redirect_stdout(printed):
-                statistics.main([str(folder / "cell.dat"), "--box", *"0 20 0 20 0 20".split(), "--from", "500",
-                                      "--neighbours", "2.1", "--aggregates", str(folder / "member.dat"),
-                                      "-o", str(folder / "out")])
+                statistics.main([str(folder / "cell.dat"), "--box", *"0 20 0 20 0 20".split(),
+                                 "--from", "500",
+                                 "--neighbours", "2.1", "--aggregates", str(folder / "member.dat"),
+                                 "-o", str(folder / "out")])
         self.assertEqual(printed.getvalue().splitlines(),
-                         [f"step {step}: rouleau order 1.0000, 0.800 neighbours per cell" for step in (500, 1000)])
+                         [f"step {step}: rouleau order 1.0000, 0.800 neighbours per cell"
+                          for step in (500, 1000)])
 
 
 if __name__ == "__main__":

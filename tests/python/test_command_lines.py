@@ -130,7 +130,8 @@ class Modules(unittest.TestCase):
         self.assertIn("Traceback", printed)
 
     def test_a_file_that_cannot_be_read_or_written_is_named(self):
-        for words in ("cell_statistics.py nothere --box 0 1 0 1 0 1", "make_vessel.py tube nothere/x"):
+        for words in ("cell_statistics.py nothere --box 0 1 0 1 0 1",
+                      "make_vessel.py tube nothere/x"):
             script, *arguments = words.split()
             code, printed = attempt(ROOT / "scripts" / script, *arguments)
             self.assertEqual(code, 1)

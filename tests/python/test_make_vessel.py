@@ -12,8 +12,8 @@ SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "make_vessel.py"
 
 
 def attempt(*words):
-    return subprocess.run([sys.executable, SCRIPT, *map(str, words)], text=True, stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, check=False)
+    return subprocess.run([sys.executable, SCRIPT, *map(str, words)], text=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
 
 
 def make(*words):
@@ -24,7 +24,8 @@ def make(*words):
         if done.returncode:
             raise AssertionError(done.stdout)
         bytes_ = path.read_bytes()
-    record = np.frombuffer(bytes_[84:], dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+    record = np.frombuffer(bytes_[84:], dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)),
+                                               ("attribute", "<u2")])
     assert len(record) == np.frombuffer(bytes_[80:84], "<u4")[0]
     return record["corners"].astype(float)
 
@@ -60,15 +61,18 @@ class Vessel(unittest.TestCase):
 
     def test_lids_close_it(self):
         for shape in ("tube", "throat", "bifurcation"):
-            corners = np.round(make(shape, "--length", 60, "--diameter", 16, "--edge", 1.6, "--closed"), 4) + 0.0
+            corners = np.round(
+                make(shape, "--length", 60, "--diameter", 16, "--edge", 1.6, "--closed"), 4) + 0.0
             edges = Counter((tuple(t[i]), tuple(t[(i + 1) % 3])) for t in corners for i in range(3)
                             if tuple(t[i]) != tuple(t[(i + 1) % 3]))
             self.assertTrue(all(edges[b, a] == count for (a, b), count in edges.items()))
             area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2
-            volumes = (area * corners.mean(axis=1)).sum(axis=0)    # the same by each direction, outward normals
+            # the same by each direction, outward normals
+            volumes = (area * corners.mean(axis=1)).sum(axis=0)
             np.testing.assert_allclose(volumes, area_and_volume(corners)[1], rtol=1e-5)
             lids = area[np.ptp(corners[:, :, 0], axis=1) == 0]
-            self.assertAlmostEqual(np.linalg.norm(lids, axis=1).sum() / (2 * np.pi * 64), 1, delta=0.03)
+            self.assertAlmostEqual(np.linalg.norm(lids, axis=1).sum() / (2 * np.pi * 64), 1,
+                                   delta=0.03)
 
     def test_throat_is_figure_6(self):
         corners = make("throat", "--unit", 8, "--edge", 0.8)
@@ -94,14 +98,20 @@ class Vessel(unittest.TestCase):
 
     def test_bad_sizes(self):
         for words, message in ((("tube", "--diameter", -1, "x.stl"), "--diameter -1.0 must be > 0"),
-                               (("tube", "--length", "inf", "x.stl"), "--length inf must be > 0 and finite"),
-                               (("tube", "--length", "nan", "x.stl"), "--length nan must be > 0 and finite"),
+                               (("tube", "--length", "inf", "x.stl"),
+                                "--length inf must be > 0 and finite"),
+                               (("tube", "--length", "nan", "x.stl"),
+                                "--length nan must be > 0 and finite"),
                                (("throat", "--throat-diameter", 4, "x.stl"),
                                 "--throat-diameter 4 must not be above the --diameter 3"),
-                               (("tube", "--throat-diameter", 2, "x.stl"), "--throat-diameter is for the shape throat, not tube"),
-                               (("tube", "--edge", 1e-6, "x.stl"), "--edge 1e-06 makes about 3e+14 triangles"),
-                               (("throat", "--taper", 9, "x.stl"), "throat and tapers are 19 long, the vessel 15"),
-                               (("bifurcation", "--distance", 2, "x.stl"), "--distance 2 leaves the daughters")):
+                               (("tube", "--throat-diameter", 2, "x.stl"),
+                                "--throat-diameter is for the shape throat, not tube"),
+                               (("tube", "--edge", 1e-6, "x.stl"),
+                                "--edge 1e-06 makes about 3e+14 triangles"),
+                               (("throat", "--taper", 9, "x.stl"),
+                                "throat and tapers are 19 long, the vessel 15"),
+                               (("bifurcation", "--distance", 2, "x.stl"),
+                                "--distance 2 leaves the daughters")):
             done = attempt(*words)
             self.assertEqual(done.returncode, 2)
             self.assertIn(message, done.stdout)
@@ -111,9 +121,11 @@ class Vessel(unittest.TestCase):
         np.testing.assert_allclose(np.hypot(*corners.reshape(-1, 3)[:, 1:].T), 1.5, rtol=1e-6)
 
     def test_output_that_cannot_be_written(self):
-        for path, message in (("/nothere/x.stl", "No such file or directory"), ("/", "Is a directory")):
+        for path, message in (("/nothere/x.stl", "No such file or directory"),
+                              ("/", "Is a directory")):
             done = attempt("tube", path)
-            self.assertEqual((done.returncode, done.stdout), (1, f"make_vessel.py: {path}: {message}\n"))
+            self.assertEqual((done.returncode, done.stdout),
+                             (1, f"make_vessel.py: {path}: {message}\n"))
 
 
 if __name__ == "__main__":

@@ -13,8 +13,10 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 from test_templates import POTENTIALS, area_and_volume, make, read_molecule
 
-SINGLE = {".stl": 1e-6, ".ply": 1e-6, ".off": 1e-14, ".vtp": 1e-14}    # relative precision of what a format holds
-OCTAHEDRON = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
+# relative precision of what a format holds
+SINGLE = {".stl": 1e-6, ".ply": 1e-6, ".off": 1e-14, ".vtp": 1e-14}
+OCTAHEDRON = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5),
+              (0, 3, 5)]
 CORNERS = [(1., 0, 0), (-1., 0, 0), (0, 1., 0), (0, -1., 0), (0, 0, 1.), (0, 0, -1.)]
 
 
@@ -35,7 +37,8 @@ def ascii_stl(corners, triangles):
 
 
 def binary_stl(corners, triangles):
-    rows = [struct.pack("<12fH", 0, 0, 0, *(c for v in triangle for c in corners[v]), 0) for triangle in triangles]
+    rows = [struct.pack("<12fH", 0, 0, 0, *(c for v in triangle for c in corners[v]), 0)
+            for triangle in triangles]
     return b"binary".ljust(80) + struct.pack("<I", len(rows)) + b"".join(rows)
 
 
@@ -53,7 +56,8 @@ def torus(n=8, m=6):
     for i in range(n):
         for j in range(m):
             a, b = 2 * math.pi * i / n, 2 * math.pi * j / m
-            corners.append(((3 + math.cos(b)) * math.cos(a), (3 + math.cos(b)) * math.sin(a), math.sin(b)))
+            corners.append(((3 + math.cos(b)) * math.cos(a), (3 + math.cos(b)) * math.sin(a),
+                            math.sin(b)))
             p, q = (i + 1) % n, (j + 1) % m
             quadrilaterals.append((i * m + j, p * m + j, p * m + q, i * m + q))
     return corners, quadrilaterals
@@ -100,11 +104,13 @@ class RoundTrip(Files):
 
     def test_a_template_is_its_own_template(self):
         for name in ("rbc_642.mol", "capsule_162.mol", "rbc_642_spheroid95.mol"):
-            self.assert_same_surface(self.mesh(POTENTIALS / name), read_molecule(POTENTIALS / name), 1e-14)
+            self.assert_same_surface(self.mesh(POTENTIALS / name), read_molecule(POTENTIALS / name),
+                                     1e-14)
 
     def test_written_surfaces_as_VTK_reads_them(self):
         area, volume = area_and_volume(*read_molecule(POTENTIALS / "rbc_162.mol"))
-        for kind, reader in ((".stl", vtkSTLReader), (".ply", vtkPLYReader), (".vtp", vtkXMLPolyDataReader)):
+        for kind, reader in ((".stl", vtkSTLReader), (".ply", vtkPLYReader),
+                             (".vtp", vtkXMLPolyDataReader)):
             with self.subTest(kind):
                 path = self.folder / ("disc" + kind)
                 make("disc", "--frequency", 4, "--surface", path)
@@ -117,14 +123,16 @@ class RoundTrip(Files):
 
     def test_files_of_others(self):
         shape = np.array(CORNERS) + [50, -7, 3]
-        for name, content in (("a.stl", ascii_stl(shape, OCTAHEDRON)), ("b.stl", binary_stl(shape, OCTAHEDRON)),
-                              ("c.ply", ascii_ply(shape, OCTAHEDRON)), ("d.off", off(shape, OCTAHEDRON)),
-                              ("f.stl", "\ufeff\n" + ascii_stl(shape, OCTAHEDRON).upper()),
-                              ("g.off", "\ufeff" + off(shape, OCTAHEDRON)),
-                              ("E.OFF", off(shape, OCTAHEDRON).replace("OFF\n# made by a test\n", "OFF "))):
+        for name, content in (
+                ("a.stl", ascii_stl(shape, OCTAHEDRON)), ("b.stl", binary_stl(shape, OCTAHEDRON)),
+                ("c.ply", ascii_ply(shape, OCTAHEDRON)), ("d.off", off(shape, OCTAHEDRON)),
+                ("f.stl", "\ufeff\n" + ascii_stl(shape, OCTAHEDRON).upper()),
+                ("g.off", "\ufeff" + off(shape, OCTAHEDRON)),
+                ("E.OFF", off(shape, OCTAHEDRON).replace("OFF\n# made by a test\n", "OFF "))):
             with self.subTest(name):
                 points, triangles = self.mesh(self.write(name, content))
-                self.assert_same_surface((points, triangles), (np.array(CORNERS), np.array(OCTAHEDRON)), 1e-5)
+                self.assert_same_surface((points, triangles),
+                                         (np.array(CORNERS), np.array(OCTAHEDRON)), 1e-5)
                 self.assertAlmostEqual(area_and_volume(points, triangles)[1], 4 / 3, delta=1e-5)
 
 
@@ -133,7 +141,8 @@ class Changes(Files):
     SIDES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
 
     def test_polygons_are_cut(self):
-        for name, content in (("cube.off", off(self.CUBE, self.SIDES)), ("cube.ply", ascii_ply(self.CUBE, self.SIDES))):
+        for name, content in (("cube.off", off(self.CUBE, self.SIDES)),
+                              ("cube.ply", ascii_ply(self.CUBE, self.SIDES))):
             points, triangles = self.mesh(self.write(name, content))
             self.assertEqual((len(points), len(triangles)), (8, 12))
             np.testing.assert_allclose(area_and_volume(points, triangles), (6, 1), rtol=1e-12)
@@ -145,20 +154,23 @@ class Changes(Files):
         points, _ = self.mesh(self.write("p.off", off(corners, sides)))
         self.assertAlmostEqual(points[:, 2].min(), -0.5, delta=1e-12)
         np.testing.assert_allclose(points[points[:, 2].argmax()],
-                                   np.array([0.3, 0.6, 2]) - (0.75 * np.array([0.5, 0.5, 0]) + [0.075, 0.15, 0.5]),
+                                   np.array([0.3, 0.6, 2]) -
+                                   (0.75 * np.array([0.5, 0.5, 0]) + [0.075, 0.15, 0.5]),
                                    atol=1e-12)
 
     def test_inward_is_turned(self):
         inward = [triangle[::-1] for triangle in OCTAHEDRON]
         _, volume = area_and_volume(*self.mesh(self.write("in.off", off(CORNERS, inward))))
         self.assertAlmostEqual(volume, 4 / 3)
-        self.assertIn("in.off: the triangles pointed inward; they were turned outward", self.printed)
+        self.assertIn("in.off: the triangles pointed inward; they were turned outward",
+                      self.printed)
 
     def test_scales(self):
         path = self.write("cube.off", off(self.CUBE, self.SIDES))
         for words, side in (("--scale 3", 3), ("--area 54", 3), ("--volume 8", 2), ("--size 5", 5)):
             with self.subTest(words):
-                np.testing.assert_allclose(area_and_volume(*self.mesh(path, *words.split())), (6 * side**2, side**3),
+                np.testing.assert_allclose(area_and_volume(*self.mesh(path, *words.split())),
+                                           (6 * side**2, side**3),
                                            rtol=1e-12)
 
     def test_title_names_the_source_without_its_folder_and_no_one_else(self):
@@ -189,22 +201,28 @@ class BadMeshes(Files):
         around = [tuple(v if v > 3 else v + 6 for v in triangle) for triangle in OCTAHEDRON]
         bigger = [(2 * x, 2 * y, 0.) for x, y, _ in CORNERS[:4]]
         for name, mesh, words in (
-                ("open", (CORNERS, OCTAHEDRON[:-1]), ["not closed", "3 edges", "one triangle only"]),
-                ("turned", (CORNERS, [OCTAHEDRON[0][::-1]] + OCTAHEDRON[1:]), ["not consistently oriented", "3 edges"]),
-                ("fin", (CORNERS + [(2., 2., 0)], OCTAHEDRON + [(0, 2, 6)]), ["not manifold", "1 edges"]),
+                ("open", (CORNERS, OCTAHEDRON[:-1]),
+                 ["not closed", "3 edges", "one triangle only"]),
+                ("turned", (CORNERS, [OCTAHEDRON[0][::-1]] + OCTAHEDRON[1:]),
+                 ["not consistently oriented", "3 edges"]),
+                ("fin", (CORNERS + [(2., 2., 0)], OCTAHEDRON + [(0, 2, 6)]),
+                 ["not manifold", "1 edges"]),
                 ("pieces", (CORNERS + far, apart), ["2 pieces"]),
                 ("torus", torus(), ["1 handles", "sphere topologically"]),
-                ("pinched", (CORNERS + bigger, OCTAHEDRON + around), ["touches itself at 2 vertices"])):
+                ("pinched", (CORNERS + bigger, OCTAHEDRON + around),
+                 ["touches itself at 2 vertices"])):
             with self.subTest(name):
                 self.refused(name + ".off", off(*mesh), *words)
 
     def test_degenerate_triangles(self):
-        # a vertex on an edge, joined to it by a triangle of no area; and the same vertex at the edge's end
+        # a vertex on an edge, joined to it by a triangle of no area; and the same vertex at the
+        # edge's end
         corners = CORNERS + [(0.5, 0.5, 0)]
         split = [(0, 2, 4), *OCTAHEDRON[1:4], (6, 0, 5), (2, 6, 5), (0, 6, 2), *OCTAHEDRON[5:]]
         self.refused("edge.off", off(corners, split), "1 triangles have no area")
         for kind, write in (("stl", ascii_stl), ("off", off)):
-            self.refused("corner." + kind, write(CORNERS + [(1, 0, 0)], split), "corners at one place")
+            self.refused("corner." + kind, write(CORNERS + [(1, 0, 0)], split),
+                         "corners at one place")
 
     def test_files(self):
         good = off(CORNERS, OCTAHEDRON)
@@ -212,7 +230,8 @@ class BadMeshes(Files):
         for name, content, words in (
                 ("a.obj", good, ["unknown format .obj", ".stl, .ply, .off, .vtp"]),
                 ("a.off", good.replace("OFF", "COFF"), ["does not begin with OFF"]),
-                ("b.off", "\n".join(good.splitlines()[:-1]), ["ends before its 6 vertices and 8 faces"]),
+                ("b.off", "\n".join(good.splitlines()[:-1]),
+                 ["ends before its 6 vertices and 8 faces"]),
                 ("c.off", good.replace("3 0 2 4", "3 0 2 7"), ["vertex that does not exist"]),
                 ("d.off", good.replace("-1.0 0 0", "-1.0 nan 0"), ["not a number"]),
                 ("e.off", off(CORNERS, []), ["no polygons"]),

@@ -19,14 +19,17 @@ ROWS = 6
 def write(folder, frames):
     """Files of the sizes of the aggregates at steps 0, 100, ..."""
     with open(folder / "classes.dat", "w") as classes, open(folder / "sizes.dat", "w") as sizes:
-        classes.write("# Time-averaged data for fix c\n# TimeStep Number-of-rows\n# Row c_a[1] c_a[2] c_a[3]\n")
-        sizes.write("# Time-averaged data for fix s\n# TimeStep c_a[1] c_a[2] c_a[3] c_a[4] c_a[5]\n")
+        classes.write("# Time-averaged data for fix c\n# TimeStep Number-of-rows\n"
+                      "# Row c_a[1] c_a[2] c_a[3]\n")
+        sizes.write("# Time-averaged data for fix s\n"
+                    "# TimeStep c_a[1] c_a[2] c_a[3] c_a[4] c_a[5]\n")
         for n, frame in enumerate(np.array(sorted(frame)) for frame in frames):
             classes.write(f"{100 * n} {ROWS}\n")
             for row in range(ROWS):
                 count = np.count_nonzero((frame >= 2**row) & (frame < 2**(row + 1)))
                 classes.write(f"{row + 1} {2**row} {count} {count / len(frame)}\n")
-            sizes.write(f"{100 * n} {len(frame)} {frame.mean()} {np.median(frame)} {frame.max()} 0\n")
+            sizes.write(
+                f"{100 * n} {len(frame)} {frame.mean()} {np.median(frame)} {frame.max()} 0\n")
 
 
 class Aggregates(unittest.TestCase):
@@ -36,10 +39,12 @@ class Aggregates(unittest.TestCase):
         self.folder = Path(self.scratch.name)
 
     def test_geometric_sizes(self):
-        # sizes of percolation on a line: 1 - p^(2 n - 1) of the aggregates have fewer than 2 n cells
+        # sizes of percolation on a line: 1 - p^(2 n - 1) of the aggregates have fewer than 2 n
+        # cells
         p = 0.7
         random = np.random.default_rng(8)
-        write(self.folder, [np.minimum(random.geometric(1 - p, 4000), 2**ROWS - 1) for _ in range(5)])
+        write(self.folder,
+              [np.minimum(random.geometric(1 - p, 4000), 2**ROWS - 1) for _ in range(5)])
         edges = 2.0**np.arange(ROWS)
         for singles in (True, False):
             found = mean_classes(self.folder / "classes.dat").fractions(singles)
@@ -52,10 +57,14 @@ class Aggregates(unittest.TestCase):
 
     def test_frames_count_by_their_aggregates(self):
         write(self.folder, [[32], [1] * 30 + [2], [1] * 32])
-        np.testing.assert_allclose(mean_classes(self.folder / "classes.dat").fractions(), np.array([62, 1, 0, 0, 0, 1]) / 64)
-        np.testing.assert_allclose(mean_classes(self.folder / "classes.dat", 200).fractions(), [1, 0, 0, 0, 0, 0])
-        np.testing.assert_allclose(mean_classes(self.folder / "classes.dat").fractions(False), [0, 0.5, 0, 0, 0, 0.5])
-        np.testing.assert_array_equal(mean_classes(self.folder / "classes.dat", 200).fractions(False), np.zeros(ROWS))
+        np.testing.assert_allclose(mean_classes(self.folder / "classes.dat").fractions(),
+                                   np.array([62, 1, 0, 0, 0, 1]) / 64)
+        np.testing.assert_allclose(mean_classes(self.folder / "classes.dat", 200).fractions(),
+                                   [1, 0, 0, 0, 0, 0])
+        np.testing.assert_allclose(mean_classes(self.folder / "classes.dat").fractions(False),
+                                   [0, 0.5, 0, 0, 0, 0.5])
+        np.testing.assert_array_equal(
+            mean_classes(self.folder / "classes.dat", 200).fractions(False), np.zeros(ROWS))
         mean, deviation = mean_median(self.folder / "sizes.dat")
         self.assertAlmostEqual(mean, 34 / 3, delta=1e-12)
         self.assertAlmostEqual(deviation, np.std([32, 1, 1]), delta=1e-12)
@@ -71,8 +80,10 @@ class Aggregates(unittest.TestCase):
         printed = io.StringIO()
         with contextlib.redirect_stdout(printed):
             aggregates.main([*cases, "-o", str(self.folder / "out.png")])
-        self.assertIn("100 /s: median 2 +- 0 cells; % of aggregates from 1: 40.0, 2: 60.0, 4: 0.0", printed.getvalue())
-        self.assertIn("10 /s: median 20 +- 0 cells; % of aggregates from 1: 0.0, 2: 0.0, 4: 33.3", printed.getvalue())
+        self.assertIn("100 /s: median 2 +- 0 cells; % of aggregates from 1: 40.0, 2: 60.0, 4: 0.0",
+                      printed.getvalue())
+        self.assertIn("10 /s: median 20 +- 0 cells; % of aggregates from 1: 0.0, 2: 0.0, 4: 33.3",
+                      printed.getvalue())
         self.assertGreater((self.folder / "out.png").stat().st_size, 5000)
 
     def test_frames_that_are_not_there(self):

@@ -42,7 +42,8 @@ class Rooms(unittest.TestCase):
         # Within a room two classes may know each other, if one of them does so in its source only.
         found = self.code.unit_rings()
         print(f"units that need each other:{listing(found)}")
-        self.nothing([ring for ring in found if all(room_of(Path(file)) == STYLES for file in ring)],
+        self.nothing([ring for ring in found
+                      if all(room_of(Path(file)) == STYLES for file in ring)],
                      "styles that need each other")
 
     def test_headers_are_included_with_their_room(self):

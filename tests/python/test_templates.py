@@ -27,8 +27,8 @@ from rbc.shear_plot import reference_series  # noqa: E402
 from rbc.tables import read_ave_time, read_csv, read_table  # noqa: E402
 
 GEODESIC = [f"{shape}_{size}.mol" for shape in ("rbc", "capsule") for size in (162, 362, 642, 2562)]
-SHIPPED = GEODESIC + ["rbc_642_spheroid95.mol", "rbc_162_spheroid98.mol", "rbc_642_spheroid98.mol", "platelet_42.mol",
-                      "white_362.mol", "white_362_relaxed.mol"]
+SHIPPED = GEODESIC + ["rbc_642_spheroid95.mol", "rbc_162_spheroid98.mol", "rbc_642_spheroid98.mol",
+                      "platelet_42.mol", "white_362.mol", "white_362_relaxed.mol"]
 
 
 def make(*words):
@@ -174,9 +174,12 @@ class Template(unittest.TestCase):
 
     def test_bad_arguments_are_refused(self):
         for words in ("sphere -f 0", "sphere -f 2 --radius 0", "disc -f 2 --diameter nan",
-                      "cube -f 2", "disc", "spheroid -f 2 --axis-ratio 1", "spheroid --axis-ratio 1 --area 1",
-                      "spheroid -f 2 --area 1 --reduced-volume 1.01", "sickle -f 2 --length 4 --width 4 --bend 180",
-                      "spheroid -f 2 --reduced-volume 1 --like rbc_162.mol", "mesh", "mesh a.stl --area 1 --scale 2",
+                      "cube -f 2", "disc", "spheroid -f 2 --axis-ratio 1",
+                      "spheroid --axis-ratio 1 --area 1",
+                      "spheroid -f 2 --area 1 --reduced-volume 1.01",
+                      "sickle -f 2 --length 4 --width 4 --bend 180",
+                      "spheroid -f 2 --reduced-volume 1 --like rbc_162.mol",
+                      "mesh", "mesh a.stl --area 1 --scale 2",
                       "spheroid -f 2 --axis-ratio 2 --prolate --area 1",
                       "spheroid -f 2 --axis-ratio 2 --area 1 --match-volume"):
             with self.subTest(words), contextlib.redirect_stderr(io.StringIO()):
@@ -192,7 +195,8 @@ class Spheroid(unittest.TestCase):
                 r, z = np.sin(t), ratio * np.cos(t)
                 area = (math.pi * (r[1:] + r[:-1]) * np.hypot(np.diff(r), np.diff(z))).sum()
                 volume = -(math.pi / 3 * (r[1:]**2 + r[1:] * r[:-1] + r[:-1]**2) * np.diff(z)).sum()
-                np.testing.assert_allclose(shapes.spheroid_size(ratio, 3), (9 * area, 27 * volume), rtol=1e-8)
+                np.testing.assert_allclose(shapes.spheroid_size(ratio, 3), (9 * area, 27 * volume),
+                                           rtol=1e-8)
 
     def test_reduced_volume(self):
         for reduced in (0.3, 0.65, 0.95, 0.997, 1):
@@ -203,7 +207,8 @@ class Spheroid(unittest.TestCase):
                 self.assertAlmostEqual(36 * math.pi * volume**2 / area**3, reduced**2, places=9)
 
     def test_mesh_lies_on_it_and_has_the_area(self):
-        for form in ("--axis-ratio 0.4", "--axis-ratio 2.5", "--reduced-volume 0.9", "--reduced-volume 0.9 --prolate"):
+        for form in ("--axis-ratio 0.4", "--axis-ratio 2.5", "--reduced-volume 0.9",
+                     "--reduced-volume 0.9 --prolate"):
             with self.subTest(form), tempfile.TemporaryDirectory() as folder:
                 file = Path(folder, "s.mol")
                 make("spheroid", *form.split(), "--area", 55, "-f", 6, "-o", file)
@@ -222,12 +227,13 @@ class Spheroid(unittest.TestCase):
             for reduced in (0.9, 1):
                 with self.subTest(like, reduced=reduced), tempfile.TemporaryDirectory() as folder:
                     file = Path(folder, "s.mol")
-                    make("spheroid", "--reduced-volume", reduced, "--like", POTENTIALS / like, "-o", file)
+                    make("spheroid", "--reduced-volume", reduced, "--like", POTENTIALS / like, "-o",
+                         file)
                     points, triangles = read_molecule(file)
                     cell, same = read_molecule(POTENTIALS / like)
                     np.testing.assert_array_equal(triangles, same)
-                    self.assertAlmostEqual(area_and_volume(points, triangles)[0] / area_and_volume(cell, same)[0], 1,
-                                           delta=1e-11)
+                    self.assertAlmostEqual(area_and_volume(points, triangles)[0] /
+                                           area_and_volume(cell, same)[0], 1, delta=1e-11)
                     found = 36 * math.pi * area_and_volume(points, triangles)[1]**2 / (
                         area_and_volume(points, triangles)[0]**3)
                     self.assertLess(abs(math.sqrt(found) - reduced), 0.02)
@@ -235,22 +241,26 @@ class Spheroid(unittest.TestCase):
                     azimuths = [np.arctan2(x[:, 1], x[:, 0]) for x in (points, cell)]
                     np.testing.assert_allclose(*azimuths, atol=1e-12)
                     self.assertTrue((np.sign(points[:, 2]) == np.sign(cell[:, 2])).all())
-                    ratio = [np.linalg.norm(np.cross(x[same[:, 1]] - x[same[:, 0]], x[same[:, 2]] - x[same[:, 0]]),
+                    ratio = [np.linalg.norm(np.cross(x[same[:, 1]] - x[same[:, 0]],
+                                                     x[same[:, 2]] - x[same[:, 0]]),
                                             axis=1) for x in (points, cell)]
-                    self.assertLess(np.abs(ratio[0] / ratio[1] - 1).max(), 0.012 * 642 / len(points))
+                    self.assertLess(np.abs(ratio[0] / ratio[1] - 1).max(),
+                                    0.012 * 642 / len(points))
 
     def test_like_another_mesh_is_refused(self):
         with self.assertRaisesRegex(SystemExit, "rbc_642_spheroid95.mol: is not a disc or sphere"):
-            make("spheroid", "--reduced-volume", 0.9, "--like", POTENTIALS / "rbc_642_spheroid95.mol")
+            make("spheroid", "--reduced-volume", 0.9, "--like",
+                 POTENTIALS / "rbc_642_spheroid95.mol")
 
     def test_numbers_in_the_title(self):
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder, "s.mol")
-            make("spheroid", "--reduced-volume", 0.9, "--like", POTENTIALS / "rbc_162.mol", "-o", file,
-                 "--citation", "Someone, Journal, 1, 2 (2003)")
+            make("spheroid", "--reduced-volume", 0.9, "--like", POTENTIALS / "rbc_162.mol", "-o",
+                 file, "--citation", "Someone, Journal, 1, 2 (2003)")
             lines = file.read_text().splitlines()
             self.assertTrue(lines[0].endswith("CITATION: Someone, Journal, 1, 2 (2003)"))
-            self.assertEqual(lines[1], "# make_template.py spheroid --reduced-volume 0.9 --like rbc_162.mol")
+            self.assertEqual(lines[1],
+                             "# make_template.py spheroid --reduced-volume 0.9 --like rbc_162.mol")
 
 
 class Sickle(unittest.TestCase):
@@ -271,7 +281,8 @@ class Sickle(unittest.TestCase):
         self.assertAlmostEqual(from_axis.min(), radius - 2, delta=0.02)
         self.assertAlmostEqual(from_axis.max(), radius + 2, delta=0.02)
         self.assertAlmostEqual(np.abs(points[:, 2]).max(), 1.5, delta=0.02)
-        self.assertAlmostEqual(np.degrees(np.arctan2(points[:, 0], radius - points[:, 1])).max(), 45, delta=0.1)
+        self.assertAlmostEqual(np.degrees(np.arctan2(points[:, 0], radius - points[:, 1])).max(),
+                               45, delta=0.1)
 
 
 class Shipped(unittest.TestCase):
@@ -293,8 +304,8 @@ class Shipped(unittest.TestCase):
     def test_readme_makes_other_cells(self):
         readme = (POTENTIALS / "README.md").read_text(encoding="utf-8")
         commands = re.findall(r"^potentials/make_template\.py (.*)$", readme, re.MULTILINE)
-        rows = re.findall(r"^\| ([^|]*) \| ([\d.]+) x ([\d.]+) x ([\d.]+) \| ([\d.]+) \| ([\d.]+) \|", readme,
-                          re.MULTILINE)
+        rows = re.findall(r"^\| ([^|]*) \| ([\d.]+) x ([\d.]+) x ([\d.]+) \| ([\d.]+) \| "
+                          r"([\d.]+) \|", readme, re.MULTILINE)
         with tempfile.TemporaryDirectory() as folder:
             made = []
             for command in commands:
