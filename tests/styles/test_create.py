@@ -14,8 +14,8 @@ BOX = np.array([30.0, 24.0, 20.0])
 
 
 def created(cells, ranks=1, **changes):
-    lines = dict(box="region box block 0 30 0 24 0 20", cells=cells, membrane=None, fluid=None, ib=None, thermo=None,
-                 dump=dump_line(1, columns=COLUMNS))
+    lines = dict(box="region box block 0 30 0 24 0 20", cells=cells, membrane=None, fluid=None,
+                 ib=None, thermo=None, dump=dump_line(1, columns=COLUMNS))
     lines.update(changes)
     return run(scene(**lines), ranks)
 
@@ -57,23 +57,27 @@ class Single(unittest.TestCase):
         for centre in ((15, 12, 10), (1, 23.5, 10), (29.999, 0, 2)):
             for ranks in (1, 4):
                 with self.subTest(centre, ranks=ranks):
-                    dump = created(f"rbc/create rbc single {' '.join(map(str, centre))}", ranks).dump()
+                    dump = created(f"rbc/create rbc single {' '.join(map(str, centre))}",
+                                   ranks).dump()
                     np.testing.assert_array_equal(dump("id"), np.arange(1, 163))
                     np.testing.assert_array_equal(dump("mol", "type"), 1)
-                    np.testing.assert_allclose(dump.positions(), np.array(centre) + POINTS, atol=4e-15)
+                    np.testing.assert_allclose(dump.positions(), np.array(centre) + POINTS,
+                                               atol=4e-15)
                     wrapped = dump("x", "y", "z")
                     self.assertTrue(((wrapped >= 0) & (wrapped < BOX)).all())
 
     def test_is_turned_about_its_centre(self):
         for degrees, axis in ((90, (1, 0, 0)), (-33, (1, 2, 3)), (400, (0, 0, -0.5))):
             with self.subTest(degrees, axis=axis):
-                dump = created(f"rbc/create rbc single 15 12 10 rotate {degrees} {' '.join(map(str, axis))}").dump()
+                dump = created(f"rbc/create rbc single 15 12 10 rotate {degrees} "
+                               f"{' '.join(map(str, axis))}").dump()
                 expected = np.array([15, 12, 10]) + POINTS @ rotation(degrees, axis).T
                 np.testing.assert_allclose(dump.positions(), expected, atol=2e-14)
 
     def test_numbering_goes_on(self):
-        cells = "\n".join([CAPSULE, f"molecule big {POTENTIALS}/rbc_362.mol", "rbc/create rbc single 5 5 5",
-                           "rbc/create big single 15 5 15 type 2", "rbc/create capsule single 25 20 15 type 3"])
+        cells = "\n".join(
+            [CAPSULE, f"molecule big {POTENTIALS}/rbc_362.mol", "rbc/create rbc single 5 5 5",
+             "rbc/create big single 15 5 15 type 2", "rbc/create capsule single 25 20 15 type 3"])
         for ranks in (1, 4):
             with self.subTest(ranks=ranks):
                 dump = created(cells, ranks, create_box="create_box 3 box angle/types 1").dump()
@@ -82,7 +86,8 @@ class Single(unittest.TestCase):
                 np.testing.assert_array_equal(dump("mol"), expected)
                 np.testing.assert_array_equal(dump("type"), expected)
                 capsule, _ = read_template(POTENTIALS / "capsule_162.mol")
-                np.testing.assert_allclose(dump.positions()[-162:], capsule + [25, 20, 15], atol=2e-14)
+                np.testing.assert_allclose(dump.positions()[-162:], capsule + [25, 20, 15],
+                                           atol=2e-14)
 
     def test_numbering_goes_on_after_other_atoms(self):
         dump = created("mass 1 1\ncreate_atoms 1 single 1 1 1\nset group all mol 7\n"
@@ -91,33 +96,39 @@ class Single(unittest.TestCase):
         np.testing.assert_array_equal(dump("mol"), [7] + [8] * 162)
 
     def test_mass_is_set_once(self):
-        dump = created("mass 1 3.5\nrbc/create rbc single 15 12 10", dump=dump_line(1, columns="id mass")).dump()
+        dump = created("mass 1 3.5\nrbc/create rbc single 15 12 10",
+                       dump=dump_line(1, columns="id mass")).dump()
         np.testing.assert_array_equal(dump("mass"), 3.5)
 
 
 class FromFile(unittest.TestCase):
     def test_is_one_command_for_each_line(self):
         places = ["5 6 7.5", "15 12 10 40 1 -2 0.5", "25 23.9 10 90 0 1 0"]
-        singly = created("\n".join("rbc/create rbc single " + " rotate ".join([" ".join(place.split()[:3]),
-                                                                                *filter(None, [" ".join(place.split()[3:])])])
-                                    for place in places)).dump()
+        singly = created("\n".join("rbc/create rbc single " +
+                                   " rotate ".join([" ".join(place.split()[:3]),
+                                                    *filter(None, [" ".join(place.split()[3:])])])
+                                   for place in places)).dump()
         lines = ["# x y z theta nx ny nz", places[0], "", places[1] + "   # tilted", places[2]]
         for ranks in (1, 2):
-            script = scene(box="region box block 0 30 0 24 0 20", cells="rbc/create rbc file cells.txt", membrane=None, fluid=None,
+            script = scene(box="region box block 0 30 0 24 0 20",
+                           cells="rbc/create rbc file cells.txt", membrane=None, fluid=None,
                            ib=None, thermo=None, dump=dump_line(1, columns=COLUMNS))
             result = run(script, ranks, files={"cells.txt": "\n".join(lines) + "\n"})
             for column in COLUMNS.split():
-                np.testing.assert_array_equal(result.dump()(column), singly(column), err_msg=f"{column}, {ranks} ranks")
+                np.testing.assert_array_equal(result.dump()(column), singly(column),
+                                              err_msg=f"{column}, {ranks} ranks")
             self.assertIn("Created 3 cells of 162 vertices", result.printed)
 
 
 class TypeLabels(unittest.TestCase):
     def test_name_types_as_in_create_atoms(self):
         labels = "labelmap atom 1 soft 2 wall 3 stiff\nmass soft 1.0\n"
-        cells = ("rbc/create rbc number 4 seed 5 type {} mix rbc 0.5 {}\nregion tube cylinder x 12 10 9 INF INF\n"
+        cells = ("rbc/create rbc number 4 seed 5 type {} mix rbc 0.5 {}\n"
+                 "region tube cylinder x 12 10 9 INF INF\n"
                  "rbc/surface tube type {} spacing 3")
         for ranks in (1, 2):
-            dumps = [created(labels + cells.format(*types), ranks, create_box="create_box 3 box angle/types 1").dump()
+            dumps = [created(labels + cells.format(*types), ranks,
+                             create_box="create_box 3 box angle/types 1").dump()
                      for types in (("soft", "stiff", "wall"), (1, 3, 2))]
             for type, least in ((1, 2 * 162), (2, 1), (3, 2 * 162)):
                 self.assertGreaterEqual((dumps[0]("type") == type).sum(), least)
@@ -130,11 +141,13 @@ class Random(unittest.TestCase):
         np.testing.assert_array_equal(dump("mol"), np.repeat(np.arange(1, number + 1), 162))
         x = dump.positions().reshape(number, 162, 3)
         for cell in x:    # rigid copies of the template, right-handed
-            self.assertAlmostEqual(volume(cell - cell.mean(axis=0), TRIANGLES), volume(POINTS, TRIANGLES), delta=1e-9)
+            self.assertAlmostEqual(volume(cell - cell.mean(axis=0), TRIANGLES),
+                                   volume(POINTS, TRIANGLES), delta=1e-9)
             np.testing.assert_allclose(np.linalg.norm(cell - cell[0], axis=1),
                                        np.linalg.norm(POINTS - POINTS[0], axis=1),
                                        atol=1e-12)
-        self.assertGreaterEqual(least_gap([(cell, TRIANGLES) for cell in x], box, periodic, 2 * overlap), overlap)
+        self.assertGreaterEqual(
+            least_gap([(cell, TRIANGLES) for cell in x], box, periodic, 2 * overlap), overlap)
         for d in range(3):
             if not periodic[d]:
                 self.assertGreaterEqual(dump.positions()[:, d].min(), overlap / 2)
@@ -158,8 +171,8 @@ class Random(unittest.TestCase):
             number = round(hematocrit * BOX.prod() / volume(POINTS, TRIANGLES))
             for periodic, boundary in (((True, True, False), "p p f"), ((True,) * 3, "p p p")):
                 with self.subTest(hematocrit, boundary=boundary):
-                    dump = created(f"rbc/create rbc hematocrit {hematocrit} seed 1 overlap {overlap}", 2,
-                                   boundary=f"boundary {boundary}").dump()
+                    dump = created(f"rbc/create rbc hematocrit {hematocrit} seed 1 overlap "
+                                   f"{overlap}", 2, boundary=f"boundary {boundary}").dump()
                     self.check_cells(dump, number, overlap, periodic)
 
     def test_half_of_a_box_is_cells_in_any_direction(self):
@@ -171,67 +184,82 @@ class Random(unittest.TestCase):
         self.assertLess(order(self.axes(dump)), order_of_isotropic(number, 0.999))
 
     def test_seeds_differ(self):
-        a, b = (created(f"rbc/create rbc number 2 seed {seed}").dump().positions() for seed in (1, 2))
+        a, b = (created(f"rbc/create rbc number 2 seed {seed}").dump().positions()
+                for seed in (1, 2))
         self.assertGreater(abs(a - b).max(), 1)
 
     def test_directions_are_random(self):
-        dump = created("rbc/create rbc number 300 seed 3 overlap 0.01", box="region box block 0 300 0 300 0 300").dump()
+        dump = created("rbc/create rbc number 300 seed 3 overlap 0.01",
+                       box="region box block 0 300 0 300 0 300").dump()
         self.assertLess(order(self.axes(dump)), order_of_isotropic(300, 0.999))
 
     def test_the_only_layer_between_near_plates_lies_flat(self):
-        dump = created("rbc/create rbc number 4 seed 3", box="region box block 0 30 0 24 0 2.8").dump()
+        dump = created("rbc/create rbc number 4 seed 3",
+                       box="region box block 0 30 0 24 0 2.8").dump()
         self.check_cells(dump, 4, mean_edge(POINTS, TRIANGLES) / 10, box=np.array([30, 24, 2.8]))
         self.assertGreater(abs(self.axes(dump)[:, 2]).min(), 0.99)
 
     def test_region(self):
-        vessel = "\n".join(["region in cylinder x 12 10 9.5 0 10", "region out cylinder x 12 10 9.5 20 30",
-                            "region narrows cone x 12 10 9.5 6.5 10 15", "region widens cone x 12 10 6.5 9.5 15 20",
-                            "region throat union 2 narrows widens"])
+        vessel = "\n".join([
+            "region in cylinder x 12 10 9.5 0 10", "region out cylinder x 12 10 9.5 20 30",
+            "region narrows cone x 12 10 9.5 6.5 10 15", "region widens cone x 12 10 6.5 9.5 15 20",
+            "region throat union 2 narrows widens"])
         for region, hematocrit, inside, size in (
-                ("block 10 25 2 20 1 19", 0.3, lambda x: ((x >= (10, 2, 1)) & (x <= (25, 20, 19))).all(),
+                ("block 10 25 2 20 1 19", 0.3,
+                 lambda x: ((x >= (10, 2, 1)) & (x <= (25, 20, 19))).all(),
                  15 * 18 * 18),
-                ("cylinder z 15 12 9 0 20", 0.3, lambda x: (np.hypot(x[:, 0] - 15, x[:, 1] - 12) <= 9).all(),
+                ("cylinder z 15 12 9 0 20", 0.3,
+                 lambda x: (np.hypot(x[:, 0] - 15, x[:, 1] - 12) <= 9).all(),
                  np.pi * 81 * 20),
                 ("sphere 15 12 10 8 side out", 0.15,
-                 lambda x: (np.linalg.norm((x - (15, 12, 10) + BOX / 2) % BOX - BOX / 2, axis=1) >= 8).all(),
+                 lambda x: (np.linalg.norm((x - (15, 12, 10) + BOX / 2) % BOX - BOX / 2, axis=1) >=
+                            8).all(),
                  BOX.prod() - 4 / 3 * np.pi * 512),
                 # a vessel with a throat
                 ("union 3 in out throat", 0.3,
-                 lambda x: (np.hypot(x[:, 1] - 12, x[:, 2] - 10) <= 9.5 - 3 * (1 - abs(x[:, 0] % 30 - 15) / 5).clip(0)
-                            + 1e-9).all(), np.pi * (9.5**2 * 20 + (9.5**2 + 6.5**2 + 9.5 * 6.5) / 3 * 10))):
+                 lambda x: (np.hypot(x[:, 1] - 12, x[:, 2] - 10) <= 9.5 -
+                            3 * (1 - abs(x[:, 0] % 30 - 15) / 5).clip(0)
+                            + 1e-9).all(),
+                 np.pi * (9.5**2 * 20 + (9.5**2 + 6.5**2 + 9.5 * 6.5) / 3 * 10))):
             with self.subTest(region):
                 dump = created(f"{vessel}\nregion part {region}\n"
                                f"rbc/create rbc hematocrit {hematocrit} seed 5 region part", 2,
                                boundary="boundary p p p").dump()
                 number = len(dump("id")) // 162
-                self.assertAlmostEqual(number, hematocrit * size / volume(POINTS, TRIANGLES), delta=0.7)
+                self.assertAlmostEqual(number, hematocrit * size / volume(POINTS, TRIANGLES),
+                                       delta=0.7)
                 self.check_cells(dump, number, mean_edge(POINTS, TRIANGLES) / 10, (True,) * 3)
                 self.assertTrue(inside(dump.positions()))
 
     def test_a_small_region_of_a_large_box_is_found(self):
-        dump = created("region part block 500 510 500 510 5 15\nrbc/create rbc number 1 seed 5 region part",
+        dump = created("region part block 500 510 500 510 5 15\n"
+                       "rbc/create rbc number 1 seed 5 region part",
                        box="region box block 0 1000 0 1000 0 20").dump()
         x = dump.positions()
         self.assertTrue(((x >= (500, 500, 5)) & (x <= (510, 510, 15))).all())
 
     def test_keeps_clear_of_atoms_that_exist(self):
-        cells = f"mass * 1\n{CAPSULE}\nrbc/create capsule number 6 seed 8 type 2\n" \
-                "create_atoms 1 single 15 12 10\nset type 1 mol 7\nrbc/create rbc number 30 seed 9 overlap 0.4"
+        cells = (f"mass * 1\n{CAPSULE}\nrbc/create capsule number 6 seed 8 type 2\n"
+                 "create_atoms 1 single 15 12 10\nset type 1 mol 7\n"
+                 "rbc/create rbc number 30 seed 9 overlap 0.4")
         types = "create_box 2 box angle/types 1"
         dumps = [created(cells, ranks, create_box=types).dump() for ranks in (1, 4)]
         np.testing.assert_array_equal(dumps[0].positions(), dumps[1].positions())
         dump = dumps[0]
-        np.testing.assert_array_equal(dump("mol"), np.repeat(np.arange(1, 38), [162] * 6 + [1] + [162] * 30))
+        np.testing.assert_array_equal(dump("mol"),
+                                      np.repeat(np.arange(1, 38), [162] * 6 + [1] + [162] * 30))
         dots = 1e-9 * np.eye(3)
         atoms = [(x + dots, np.array([[0, 1, 2]])) for x in dump.positions()[:6 * 162 + 1]]
         cells = [(x, TRIANGLES) for x in dump.positions()[6 * 162 + 1:].reshape(30, 162, 3)]
         for atom in atoms[::20] + atoms[-1:]:
-            self.assertGreaterEqual(least_gap([atom, *cells], BOX, (True, True, False), 1), 0.4 - 1e-8)
+            self.assertGreaterEqual(least_gap([atom, *cells], BOX, (True, True, False), 1),
+                                    0.4 - 1e-8)
 
     def test_velocity_is_random_for_each_cell(self):
         cells = "rbc/create rbc number 40 seed 4 velocity 0.002"
-        velocity = [created(cells, ranks, dump=dump_line(1, columns="id vx vy vz")).dump()("vx", "vy", "vz")
-                    for ranks in (1, 2)]
+        velocity = [
+            created(cells, ranks, dump=dump_line(1, columns="id vx vy vz")).dump()("vx", "vy", "vz")
+            for ranks in (1, 2)]
         np.testing.assert_array_equal(*velocity)
         of_cells = velocity[0].reshape(40, 162, 3)
         np.testing.assert_array_equal(of_cells - of_cells[:, :1], 0)
@@ -244,11 +272,12 @@ class Mixed(unittest.TestCase):
     TYPES = {"create_box": "create_box 3 box angle/types 1"}
 
     def test_stiff_cells_and_platelets(self):
-        make_template("spheroid", "--axis-ratio", "0.3333333", "--diameter", "2.4", "--frequency", "3", "--output",
-                      "platelet.mol")
+        make_template("spheroid", "--axis-ratio", "0.3333333", "--diameter", "2.4", "--frequency",
+                      "3", "--output", "platelet.mol")
         platelet, their_triangles = read_template("platelet.mol")
-        cells = f"molecule platelet {Path.cwd()}/platelet.mol\nrbc/create rbc hematocrit 0.35 seed 6 overlap 0.1 " \
-                "mix rbc 0.25 2 mix platelet 0.3 3"
+        cells = (f"molecule platelet {Path.cwd()}/platelet.mol\n"
+                 "rbc/create rbc hematocrit 0.35 seed 6 overlap 0.1 "
+                 "mix rbc 0.25 2 mix platelet 0.3 3")
         dumps = [created(cells, ranks, **self.TYPES).dump() for ranks in (1, 2, 4)]
         for dump in dumps[1:]:
             np.testing.assert_array_equal(dump.positions(), dumps[0].positions())
@@ -260,23 +289,26 @@ class Mixed(unittest.TestCase):
         self.assertEqual(number, round(0.35 * BOX.prod() / mean_volume))
         for kind, fraction in ((1, 0.45), (2, 0.25), (3, 0.3)):
             self.assertAlmostEqual(kinds.count(kind), fraction * number, delta=1)
-        surfaces = [(dump.positions()[dump("mol") == m + 1], their_triangles if kind == 3 else TRIANGLES)
+        surfaces = [(dump.positions()[dump("mol") == m + 1],
+                     their_triangles if kind == 3 else TRIANGLES)
                     for m, kind in enumerate(kinds)]
         self.assertGreaterEqual(least_gap(surfaces, BOX, (True, True, False), 0.2), 0.1)
 
     def test_whole_numbers_add_up(self):
-        dump = created("rbc/create rbc number 3 seed 6 mix rbc 0.3333 2 mix rbc 0.3333 3", **self.TYPES).dump()
+        dump = created("rbc/create rbc number 3 seed 6 mix rbc 0.3333 2 mix rbc 0.3333 3",
+                       **self.TYPES).dump()
         np.testing.assert_array_equal(dump("type"), np.repeat([1, 2, 3], 162))
 
 
 class TwoKinds(unittest.TestCase):
     def test_two_membranes_with_different_templates(self):
         # the second template has the longer edges: it decides how far ghosts must reach
-        cells = f"{CAPSULE}\nmolecule fine {POTENTIALS}/rbc_642.mol\n" \
-                "rbc/create fine single 8 12 10 rotate 50 1 0 0\nrbc/create rbc single 20 12 10 rotate 20 0 1 0 type 2"
+        cells = (f"{CAPSULE}\nmolecule fine {POTENTIALS}/rbc_642.mol\n"
+                 "rbc/create fine single 8 12 10 rotate 50 1 0 0\n"
+                 "rbc/create rbc single 20 12 10 rotate 20 0 1 0 type 2")
         script = scene(
-            box="region box block 0 30 0 24 0 20", create_box="create_box 2 box angle/types 1", cells=cells,
-            before="group a type 1\ngroup b type 2",
+            box="region box block 0 30 0 24 0 20", create_box="create_box 2 box angle/types 1",
+            cells=cells, before="group a type 1\ngroup b type 2",
             membrane="fix mem a rbc/membrane fine mooney-rivlin 0.257 0.0257 0.01 bending 2e-4\n"
                      "fix mem2 b rbc/membrane rbc skalak 0.005 1 bending 2e-4",
             compute="compute cell all rbc/cell",
@@ -291,7 +323,8 @@ class TwoKinds(unittest.TestCase):
             self.assertEqual(result.thermo["c_cell[2][1]"][0], 2)
             self.assertLess(result.thermo["f_flow[11]"].max(), 1e-12)
             for column in ("c_cell[1][6]", "c_cell[2][6]"):
-                np.testing.assert_allclose(result.thermo[column], result.thermo[column][0], rtol=1e-4)
+                np.testing.assert_allclose(result.thermo[column], result.thermo[column][0],
+                                           rtol=1e-4)
 
 
 if __name__ == "__main__":

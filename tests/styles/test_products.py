@@ -17,7 +17,8 @@ def styles_in_headers():
 
 
 def listings(executable, script):
-    """One set of (kind, name) for each `info styles all` of the script; and all that was printed."""
+    """One set of (kind, name) for each `info styles all` of the script; and all that was
+    printed."""
     Path("in.products").write_text(script)
     run = subprocess.run(
         [os.environ["MPIEXEC"], "-np", "2", executable, "-log", "none", "-in", "in.products"],
@@ -35,15 +36,18 @@ def listings(executable, script):
 
 class Products(unittest.TestCase):
     def test_executable_has_the_styles_from_the_start(self):
-        found, printed = listings(os.environ["LMP_RBC"], "info styles all\nclear\ninfo styles all\n")
+        found, printed = listings(os.environ["LMP_RBC"],
+                                  "info styles all\nclear\ninfo styles all\n")
         self.assertEqual(len(found), 2)
         for styles in found:
             self.assertEqual(styles_in_headers() - styles, set())
         self.assertNotIn("plugin:", printed)
 
     def test_help_lists_the_styles(self):
-        run = subprocess.run([os.environ["LMP_RBC"], "-h"], capture_output=True, text=True, check=True)
-        listed = re.findall(r"^  (\w+) +(\S+)$", run.stdout.split("Help of LAMMPS")[0], re.MULTILINE)
+        run = subprocess.run([os.environ["LMP_RBC"], "-h"], capture_output=True, text=True,
+                             check=True)
+        listed = re.findall(r"^  (\w+) +(\S+)$", run.stdout.split("Help of LAMMPS")[0],
+                            re.MULTILINE)
         self.assertEqual({(kind.capitalize(), name) for kind, name in listed}, styles_in_headers())
         self.assertEqual(len(listed), len(set(listed)))
         self.assertIn("List of command-line options", run.stdout)

@@ -39,8 +39,10 @@ def read_molecule(path):
 def stretched(factors):
     """Molecule file of the cell's shape with each coordinate multiplied by a factor."""
     points, triangles = read_molecule(SHAPE)
-    lines = ["# stretched", "", f"{len(points)} atoms", f"{len(triangles)} angles", "", "Coords", ""]
-    lines += ["{} {!r} {!r} {!r}".format(n, *map(float, p * factors)) for n, p in enumerate(points, 1)]
+    lines = ["# stretched", "", f"{len(points)} atoms", f"{len(triangles)} angles", "", "Coords",
+             ""]
+    lines += ["{} {!r} {!r} {!r}".format(n, *map(float, p * factors))
+              for n, p in enumerate(points, 1)]
     lines += ["", "Types", ""] + [f"{n} 1" for n in range(1, len(points) + 1)] + ["", "Angles", ""]
     lines += ["{} 1 {} {} {}".format(n, *(t + 1)) for n, t in enumerate(triangles, 1)]
     return "\n".join(lines) + "\n"
@@ -79,7 +81,8 @@ class Surfaces:
         if self.data.GetNumberOfPoints():
             self.points = vtk_to_numpy(self.data.GetPoints().GetData())
             assert set(np.diff(vtk_to_numpy(self.data.GetPolys().GetOffsetsArray()))) == {3}
-            self.triangles = vtk_to_numpy(self.data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+            self.triangles = vtk_to_numpy(self.data.GetPolys().GetConnectivityArray()).reshape(-1,
+                                                                                               3)
 
     def open_edges(self):
         edges = vtkFeatureEdges()
@@ -97,16 +100,19 @@ class Surfaces:
         return properties.GetVolume()
 
     def in_order_of_molecules(self):
-        """Every point array, the position and the corners of each triangle by atom rather than by place in the file."""
+        """Every point array, the position and the corners of each triangle by atom rather than by
+        place in the file."""
         order = np.argsort(self.arrays["molecule"], kind="stable")
         place = np.argsort(order)
         triangles = place[self.triangles]
         arrays = {name: values[order] for name, values in self.arrays.items()}
-        return dict(arrays, points=self.points[order], triangles=triangles[np.argsort(triangles[:, 0], kind="stable")])
+        return dict(arrays, points=self.points[order],
+                    triangles=triangles[np.argsort(triangles[:, 0], kind="stable")])
 
 
 def moving(output, run="run 4"):
-    """Three stretched cells, two of them across sides of the box, that move and pass to other ranks."""
+    """Three stretched cells, two of them across sides of the box, that move and pass to other
+    ranks."""
     return BOX + f"""
 molecule    stretched stretched.mol
 rbc/create  stretched single 0.1 11.9 0
@@ -124,7 +130,8 @@ timestep    0.1
 
 
 def run_moving(*arguments, ranks=1):
-    return lammps_case.run(moving(*arguments), ranks, files={"stretched.mol": stretched([1.15, 0.9, 1.05])})
+    return lammps_case.run(moving(*arguments), ranks,
+                           files={"stretched.mol": stretched([1.15, 0.9, 1.05])})
 
 
 class FixVTK(unittest.TestCase):
@@ -163,7 +170,8 @@ class FixVTK(unittest.TestCase):
                     self.assertEqual(cells.open_edges(), 0)
                     volume = volume_of(points, triangles)
                     self.assertAlmostEqual(cells.volume(), volume, delta=1e-6 * volume)
-                    self.assertEqual(set(cells.arrays), {"velocity", "force", "tension", "molecule"})
+                    self.assertEqual(set(cells.arrays),
+                                     {"velocity", "force", "tension", "molecule"})
                     self.assert_close(cells.arrays["tension"], np.zeros(len(points)))
                     self.assertEqual(set(cells.arrays["molecule"]), {1})
 
@@ -174,9 +182,10 @@ class FixVTK(unittest.TestCase):
         mooney_rivlin = 2 * 0.7 * (1 - stretch**-6) + 2 * 0.4 * (J - stretch**-4)
         areas = (kglobal + klocal) * (J - 1)
         skalak = Gs * (J - 1 + C * J * (J**2 - 1))
-        for law, tension in ((f"neo-hookean {Gs}", neo_hookean), ("mooney-rivlin 70 40 0.01", mooney_rivlin),
-                             (f"skalak {Gs} {C}", skalak),
-                             (f"neo-hookean {Gs} area {kglobal} {klocal} bending 0.1", neo_hookean + areas)):
+        for law, tension in (
+                (f"neo-hookean {Gs}", neo_hookean), ("mooney-rivlin 70 40 0.01", mooney_rivlin),
+                (f"skalak {Gs} {C}", skalak),
+                (f"neo-hookean {Gs} area {kglobal} {klocal} bending 0.1", neo_hookean + areas)):
             with self.subTest(law=law):
                 result = lammps_case.run(BOX + f"""
 molecule    sphere {SPHERE}
@@ -205,7 +214,8 @@ run         0
                     self.assertEqual(cells.open_edges(), 0)
                     for cell in np.split(cells.points, 3):
                         self.assertLess(np.ptp(cell, axis=0).max(), 11)
-                        self.assertTrue((cell.mean(axis=0) >= -1e-8).all() and (cell.mean(axis=0) < 12).all())
+                        self.assertTrue((cell.mean(axis=0) >= -1e-8).all()
+                                        and (cell.mean(axis=0) < 12).all())
                     alone.setdefault(step, cells)
                     self.assertEqual(cells.triangles.tolist(), alone[step].triangles.tolist())
                     self.assert_same(cells, alone[step])
@@ -215,9 +225,11 @@ run         0
         two = run_moving("shell mkdir out\nfix out all rbc/vtk 4 out/cells.*.pvtp", ranks=2)
         for step in (0, 4):
             with self.subTest(step=step):
-                whole, together = Surfaces(one.path(f"cells.{step}.vtp")), Surfaces(two.path(f"out/cells.{step}.pvtp"))
+                whole, together = (Surfaces(one.path(f"cells.{step}.vtp")),
+                                   Surfaces(two.path(f"out/cells.{step}.pvtp")))
                 self.assert_same(together, whole)
-                self.assertEqual((together.time, together.time_steps), (whole.time, whole.time_steps))
+                self.assertEqual((together.time, together.time_steps),
+                                 (whole.time, whole.time_steps))
                 pieces = [Surfaces(two.path(f"out/cells.{step}_{rank}.vtp")) for rank in (0, 1)]
                 self.assertEqual(sum(len(piece.points) for piece in pieces), len(whole.points))
                 for piece in pieces:
@@ -226,7 +238,8 @@ run         0
                     self.assertEqual(piece.time, whole.time)
 
     def test_ranks_without_cells_write_empty_pieces(self):
-        result = lammps_case.run("processors 4 1 1\n" + BOX + "rbc/create rbc single 4.5 6 6\n" + MEMBRANE +
+        result = lammps_case.run("processors 4 1 1\n" + BOX + "rbc/create rbc single 4.5 6 6\n" +
+                                 MEMBRANE +
                                  "fix out all rbc/vtk 1 cells.*.pvtp\nrun 0\n", 4)
         together = Surfaces(result.path("cells.0.pvtp"))
         self.assertEqual(len(together.points), 162)
@@ -256,16 +269,19 @@ run         2
         middle = np.array([6, 6, 5]) + read_molecule(SHAPE)[0].mean(axis=0)
         for value, centre in (("no", middle), ("yes", middle + [12, 0, -24])):
             with self.subTest(unwrap=value):
-                result = lammps_case.run(BOX + "rbc/create rbc single 6 6 5\nset group all image 1 0 -2\n" + MEMBRANE +
-                                         f"fix out all rbc/vtk 1 cells.*.vtp unwrap {value}\nrun 0\n", 2)
+                result = lammps_case.run(
+                    BOX + "rbc/create rbc single 6 6 5\nset group all image 1 0 -2\n" + MEMBRANE +
+                    f"fix out all rbc/vtk 1 cells.*.vtp unwrap {value}\nrun 0\n", 2)
                 self.assert_close(Surfaces(result.path("cells.0.vtp")).points.mean(axis=0), centre)
 
     def test_group_and_several_templates(self):
-        expected = {"all": [(1, 162), (2, 362), (3, 362), (4, 162)], "spheres": [(2, 362), (3, 362)],
+        expected = {"all": [(1, 162), (2, 362), (3, 362), (4, 162)],
+                    "spheres": [(2, 362), (3, 362)],
                     "some": [(2, 362), (4, 162)], "none": []}
         for ranks in (1, 4):
             for end in ("vtp", "pvtp"):
-                output = "".join(f"fix {name} {name} rbc/vtk 1 {name}.*.{end}\n" for name in expected)
+                output = "".join(f"fix {name} {name} rbc/vtk 1 {name}.*.{end}\n"
+                                 for name in expected)
                 result = lammps_case.run(BOX + f"""
 molecule    sphere {SPHERE}
 rbc/create  rbc single 6 6 6
@@ -284,13 +300,16 @@ run         0
                 for name, cells in expected.items():
                     with self.subTest(group=name, ranks=ranks, end=end):
                         surfaces = Surfaces(result.path(f"{name}.0.{end}"))
-                        molecules, counts = np.unique(surfaces.arrays.get("molecule", []), return_counts=True)
-                        self.assertEqual(list(zip(molecules.astype(int).tolist(), counts.tolist())), cells)
+                        molecules, counts = np.unique(surfaces.arrays.get("molecule", []),
+                                                      return_counts=True)
+                        self.assertEqual(list(zip(molecules.astype(int).tolist(), counts.tolist())),
+                                         cells)
                         self.assertEqual(surfaces.open_edges(), 0)
                         self.assertEqual(len(surfaces.triangles), sum(2 * n - 4 for _, n in cells))
 
     def test_aggregate_of_each_cell(self):
-        # two that touch, one alone and one outside the compute's group; the gap opens after the first frame
+        # two that touch, one alone and one outside the compute's group; the gap opens after the
+        # first frame
         for ranks, end in ((1, "vtp"), (2, "vtp"), (4, "vtp"), (2, "pvtp")):
             with self.subTest(ranks=ranks, end=end):
                 result = lammps_case.run(BOX.replace("12 0 12 0 12", "12 0 12 0 16") + f"""
@@ -308,7 +327,8 @@ fix         out all rbc/vtk 1 cells.*.{end} aggregate agg
 timestep    1
 run         1
 """, ranks)
-                for step, expected in ((0, {1: 1, 2: 1, 3: 3, 4: 0}), (1, {1: 1, 2: 2, 3: 3, 4: 0})):
+                for step, expected in ((0, {1: 1, 2: 1, 3: 3, 4: 0}),
+                                       (1, {1: 1, 2: 2, 3: 3, 4: 0})):
                     arrays = Surfaces(result.path(f"cells.{step}.{end}")).arrays
                     self.assertEqual(len(arrays["aggregate"]), 4 * 162)
                     pairs = set(zip(arrays["molecule"].tolist(), arrays["aggregate"].tolist()))
@@ -334,26 +354,33 @@ run 3 pre no
         def entries(result):
             root = ElementTree.parse(result.path("cells.pvd")).getroot()
             self.assertEqual(root.attrib["type"], "Collection")
-            return [(float(entry.attrib["timestep"]), entry.attrib["file"]) for entry in root.iter("DataSet")]
+            return [(float(entry.attrib["timestep"]), entry.attrib["file"])
+                    for entry in root.iter("DataSet")]
 
         def moved(steps, script, prepare=None):
-            return lammps_case.run(f"{script}fix out all rbc/vtk 2 cells.*.pvtp\ntimestep 0.5\nrun {steps}\n"
+            return lammps_case.run(f"{script}fix out all rbc/vtk 2 cells.*.pvtp\ntimestep 0.5\n"
+                                   f"run {steps}\n"
                                    "write_restart last.restart\n", 2, prepare=prepare)
 
         def keep(folder):
             shutil.copy(first.path("last.restart"), folder)
-            of_another = '    <DataSet timestep="3" group="" part="0" file="of-another-run.pvtp"/>\n  </Collection>'
-            (folder / "cells.pvd").write_text(first.path("cells.pvd").read_text().replace("  </Collection>", of_another))
+            of_another = ('    <DataSet timestep="3" group="" part="0" '
+                          'file="of-another-run.pvtp"/>\n  </Collection>')
+            (folder / "cells.pvd").write_text(
+                first.path("cells.pvd").read_text().replace("  </Collection>", of_another))
 
         first = moved(4, BOX + "rbc/create rbc single 6 6 6\n" + MEMBRANE)
-        self.assertEqual(entries(first), [(0, "cells.0.pvtp"), (1, "cells.2.pvtp"), (2, "cells.4.pvtp")])
+        self.assertEqual(entries(first),
+                         [(0, "cells.0.pvtp"), (1, "cells.2.pvtp"), (2, "cells.4.pvtp")])
         again = moved(2, f"read_restart last.restart\nmolecule rbc {SHAPE}\n" + MEMBRANE, keep)
         self.assertEqual(entries(again), [*entries(first), (3, "cells.6.pvtp")])
 
     def test_a_folder_for_each_step(self):
-        result = lammps_case.run(BOX + "rbc/create rbc single 6 6 6\n" + MEMBRANE + "shell mkdir at0 at1\n"
+        result = lammps_case.run(BOX + "rbc/create rbc single 6 6 6\n" + MEMBRANE +
+                                 "shell mkdir at0 at1\n"
                                  "fix out all rbc/vtk 1 at*/cells.vtp\ntimestep 0.5\nrun 1\n")
-        self.assertEqual(sorted(path.parent.name for path in result.folder.glob("at*/cells.vtp")), ["at0", "at1"])
+        self.assertEqual(sorted(path.parent.name for path in result.folder.glob("at*/cells.vtp")),
+                         ["at0", "at1"])
         self.assertEqual(list(result.folder.rglob("*.pvd")), [])
 
     def test_bad_arguments(self):
@@ -364,30 +391,41 @@ run 3 pre no
                 ("10", r"Illegal fix rbc/vtk command: missing argument"),
                 ("10 cells.vtp", r"Fix rbc/vtk file name cells.vtp must contain a \*"),
                 ("10 cells.*.vtk", r"Fix rbc/vtk file name cells.\*.vtk must end in .vtp or .pvtp"),
-                ("10 cells.*.vtp wrap yes", r"Unknown fix rbc/vtk keyword wrap; allowed: unwrap, aggregate"),
+                ("10 cells.*.vtp wrap yes",
+                 r"Unknown fix rbc/vtk keyword wrap; allowed: unwrap, aggregate"),
                 ("10 cells.*.vtp unwrap", r"Illegal fix rbc/vtk unwrap command: missing argument"),
                 ("10 cells.*.vtp unwrap maybe", r"Expected boolean"),
-                ("10 cells.*.vtp aggregate", r"Illegal fix rbc/vtk aggregate command: missing argument"),
-                ("10 cells.*.vtp aggregate agg", r"Fix rbc/vtk out: compute ID agg for aggregate does not exist"),
-                ("10 cells.*.vtp aggregate thermo_temp", r"compute thermo_temp for aggregate is of style temp, not "
+                ("10 cells.*.vtp aggregate",
+                 r"Illegal fix rbc/vtk aggregate command: missing argument"),
+                ("10 cells.*.vtp aggregate agg",
+                 r"Fix rbc/vtk out: compute ID agg for aggregate does not exist"),
+                ("10 cells.*.vtp aggregate thermo_temp",
+                 r"compute thermo_temp for aggregate is of style temp, not "
                  "rbc/aggregate"),
-                ("10 nowhere/cells.*.vtp", r"Fix rbc/vtk out: cannot open file nowhere/cells.0.vtp: No such file"),
-                ("10 nowhere/cells.*.pvtp", r"Fix rbc/vtk out: cannot open file nowhere/cells.0_\d.vtp: No such file")):
+                ("10 nowhere/cells.*.vtp",
+                 r"Fix rbc/vtk out: cannot open file nowhere/cells.0.vtp: No such file"),
+                ("10 nowhere/cells.*.pvtp",
+                 r"Fix rbc/vtk out: cannot open file nowhere/cells.0_\d.vtp: No such file")):
             with self.subTest(arguments=arguments):
                 self.assert_fails(BOX + "rbc/create rbc single 6 6 6\n" + MEMBRANE +
                                   f"fix out all rbc/vtk {arguments}\nrun 0\n", message)
 
     def test_bad_surroundings(self):
         cell = BOX + "rbc/create rbc single 6 6 6\n"
-        fluid = "fix flow all rbc/fluid dx 1 viscosity 1.5 density 1.025 inertia none\nfix ib all rbc/ib flow\n"
+        fluid = ("fix flow all rbc/fluid dx 1 viscosity 1.5 density 1.025 inertia none\n"
+                 "fix ib all rbc/ib flow\n")
         output = "fix out all rbc/vtk 10 cells.*.vtp\n"
         for script, message in (
                 (cell + output, r"Fix rbc/vtk out: there is no fix rbc/membrane"),
-                (cell + output + MEMBRANE, r"Fix rbc/vtk out must be defined after fix rbc/membrane mem"),
-                (cell + MEMBRANE + output + fluid, r"Fix rbc/vtk out must be defined after fix rbc/ib ib"),
+                (cell + output + MEMBRANE,
+                 r"Fix rbc/vtk out must be defined after fix rbc/membrane mem"),
+                (cell + MEMBRANE + output + fluid,
+                 r"Fix rbc/vtk out must be defined after fix rbc/ib ib"),
                 (cell + MEMBRANE + "group half id <= 100\n" + output.replace("all", "half"),
-                 r"group half breaks the cell with molecule ID 1: it holds 100 of its 162 vertices"),
-                (cell + MEMBRANE + "group high dynamic all every 1\n" + output.replace("all", "high"),
+                 "group half breaks the cell with molecule ID 1: it holds 100 of its 162 "
+                 "vertices"),
+                (cell + MEMBRANE + "group high dynamic all every 1\n" +
+                 output.replace("all", "high"),
                  r"Fix rbc/vtk out cannot be used with dynamic group high")):
             with self.subTest(message=message):
                 self.assert_fails(script + "run 0\n", message)
