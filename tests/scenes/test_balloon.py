@@ -7,7 +7,8 @@ import numpy as np
 from scene_case import polyhedron, run_example, study_of
 
 STUDY = study_of("balloon")
-COARSE = dict(shape="capsule_162", dx=0.25, box=4.5, stretch=1.5, duration=36, timestep=0.06, levels=20)
+COARSE = dict(shape="capsule_162", dx=0.25, box=4.5, stretch=1.5, duration=36, timestep=0.06,
+              levels=20)
 
 
 class Balloon(unittest.TestCase):
@@ -16,13 +17,15 @@ class Balloon(unittest.TestCase):
         return np.array(STUDY.measure(result.folder)).T
 
     def test_pressure(self):
-        # Two errors of the polyhedron are known, of second order in its edges: the sheet has the energy of its area,
-        # larger than that of the sphere of its volume, and the forces on the fluid sit at the vertices, outside of
-        # that sphere. What is left is roughness finer than the fluid's grid, which relaxes slowly.
+        # Two errors of the polyhedron are known, of second order in its edges: the sheet has the
+        # energy of its area, larger than that of the sphere of its volume, and the forces on the
+        # fluid sit at the vertices, outside of that sphere. What is left is roughness finer than
+        # the fluid's grid, which relaxes slowly.
         area, volume, vertices = polyhedron(COARSE["shape"])
         radius = (3 * volume / (4 * np.pi))**(1 / 3)
         excess, inside = area / (4 * np.pi * radius**2), radius / vertices
-        for law, ranks, changes in (("neo", 2, {}), ("mooney", 1, {}), ("skalak", 1, dict(timestep=0.015, duration=72))):
+        for law, ranks, changes in (("neo", 2, {}), ("mooney", 1, {}),
+                                    ("skalak", 1, dict(timestep=0.015, duration=72))):
             with self.subTest(law):
                 stretch, membrane, fluid = self.balloon(ranks, law=law, **changes)
                 exact = STUDY.closed_form(law, stretch) * excess

@@ -1,4 +1,5 @@
-"""Cells in a vessel that parts: the mean velocity asked for, and about the pressure of Poiseuille."""
+"""Cells in a vessel that parts: the mean velocity asked for, and about the pressure of
+Poiseuille."""
 
 import unittest
 
@@ -18,7 +19,8 @@ class Bifurcation(unittest.TestCase):
         self.assertLess(abs(table["f_flow[13]"] / MEAN - 1).max(), 0.01)
         rate = table["f_flow[16]"]
         volume = rate * LENGTH / table["f_flow[13]"]
-        # in the stem the gradient is that of Poiseuille's law, in the two branches of Murray's diameter 2^(1/3) times it
+        # in the stem the gradient is that of Poiseuille's law, in the two branches of Murray's
+        # diameter 2^(1/3) times it
         driven = table["f_flow[19]"][0] / (8 * VISCOSITY * rate[0] / (np.pi * RADIUS**4))
         print(f"\ngradient over that in a straight tube {driven:.4f}")
         self.assertGreater(driven, 0.95)

@@ -12,7 +12,8 @@ from scene_case import polyhedron, run_example
 SMALL = dict(length=16, gap=12, every=1, frames=1000)
 COLLECTED = r"WARNING: Fix rbc/fluid flow: (.*) \("
 
-# what a newcomer makes of examples/suspension-shear/in.plain for 40 %, with coarse cells and a short run
+# what a newcomer makes of examples/suspension-shear/in.plain for 40 %, with coarse cells and a
+# short run
 FIRST_TRY = f"""
 units           micro
 atom_style      molecular
@@ -52,12 +53,14 @@ class Blood(unittest.TestCase):
 
     def test_between_plates(self):
         cases = [(kernel, adhesion) for kernel in ("roma3", "peskin4") for adhesion in (0, 2.0e-4)]
-        results = in_parallel(lambda kernel, adhesion: self.one(hematocrit=0.4, kernel=kernel, adhesion=adhesion), cases)
+        results = in_parallel(lambda kernel, adhesion: self.one(hematocrit=0.4, kernel=kernel,
+                                                                adhesion=adhesion), cases)
         for case, result in zip(cases, results):
             with self.subTest(case):
                 viscosity = self.check(result, SMALL["length"]**2 * SMALL["gap"])
-                # cells dissipate more than they would far apart, Einstein's 1 + 2.5 phi, once they are under way; the
-                # viscosity measured of such blood is below 10 times that of plasma
+                # cells dissipate more than they would far apart, Einstein's 1 + 2.5 phi, once they
+                # are under way; the viscosity measured of such blood is below 10 times that of
+                # plasma
                 self.assertGreater(viscosity.min(), 1 + 2.5 * 0.4)
                 self.assertLess(viscosity.max(), 10)
                 self.assertIn(f"work per area {case[1]:g}", result.printed)
@@ -65,8 +68,10 @@ class Blood(unittest.TestCase):
     def test_in_a_tube(self):
         result = self.one(hematocrit=0.3, tube=14, length=14, strain=0.3)
         viscosity = self.check(result, np.pi / 4 * 14**2 * 14)
-        self.assertGreater(viscosity.min(), 1)    # of all flows at this flow rate plasma's dissipates least
-        self.assertIn("fix rbc/wall vessel; cells are repelled by pair rbc/jkr walls inside", result.printed)
+        # of all flows at this flow rate plasma's dissipates least
+        self.assertGreater(viscosity.min(), 1)
+        self.assertIn("fix rbc/wall vessel; cells are repelled by pair rbc/jkr walls inside",
+                      result.printed)
 
 
 class FirstTry(unittest.TestCase):
@@ -74,7 +79,8 @@ class FirstTry(unittest.TestCase):
         result = attempt(FIRST_TRY.format(include="", steps=500))
         for missing in ("nothing keeps the .* cells of .*", "nothing repels the .* cells .*"):
             self.assertRegex(result.printed, f"WARNING: .*{missing} include potentials/dense.blood")
-        self.assertRegex(result.error, "What may help, likeliest first: include potentials/dense.blood")
+        self.assertRegex(result.error,
+                         "What may help, likeliest first: include potentials/dense.blood")
 
     def test_runs_with_the_include(self):
         result = run(FIRST_TRY.format(include=INCLUDE, steps=250))    # a strain of 9
@@ -82,7 +88,8 @@ class FirstTry(unittest.TestCase):
         self.assertGreater(result.thermo["Step"][-1], 249)
 
     def test_contact_of_the_scene_is_kept(self):
-        own = "pair_style rbc/jkr 0.9\npair_coeff 1 1 repulsive 0.2 0.9\nfix plates all wall/harmonic zlo EDGE 0.1 1 0.5"
+        own = ("pair_style rbc/jkr 0.9\npair_coeff 1 1 repulsive 0.2 0.9\n"
+               "fix plates all wall/harmonic zlo EDGE 0.1 1 0.5")
         result = run(FIRST_TRY.format(include=f"{own}\n{INCLUDE}", steps=0))
         self.assertIn("gap 0.9 at rest, range 0.9", result.printed)
 

@@ -1,4 +1,5 @@
-"""A capsule in a tube on a coarse grid: nearly rigid it moves as a sphere does, softer it grows long and hollow."""
+"""A capsule in a tube on a coarse grid: nearly rigid it moves as a sphere does, softer it grows
+long and hollow."""
 
 import sys
 import unittest
@@ -22,7 +23,8 @@ class CapsuleChannel(unittest.TestCase):
         stiff = {**COARSE, **STUDY.STIFF, "ratio": 0.75}
         soft = [dict(COARSE, ratio=0.85, Ca=number, duration=2) for number in cls.numbers[1:]]
         cases = [stiff, *soft]
-        cls.results = in_parallel(lambda variables, ranks: run_example("capsule-channel", ranks, **variables),
+        cls.results = in_parallel(lambda variables, ranks: run_example("capsule-channel", ranks,
+                                                                       **variables),
                                   list(zip(cases, (1, 2, 1))))
         cls.rows = [dict(zip(STUDY.COLUMNS, STUDY.measure(result.folder, variables)))
                     for result, variables in zip(cls.results, cases)]
@@ -35,12 +37,14 @@ class CapsuleChannel(unittest.TestCase):
         self.assertLess(abs(self.rows[0]["length"] - 1), 5e-3)
 
     def test_softer(self):
-        # Risso et al 2006: at fixed a/R the capsule is stretched axially as Ca rises; its back turns hollow
+        # Risso et al 2006: at fixed a/R the capsule is stretched axially as Ca rises; its back
+        # turns hollow
         hollows = []
         for row, result in zip(self.rows[1:], self.results[1:]):
             x, _, _ = STUDY.outline(result.path("capsule.dump"), COARSE["shape"])
             hollows.append(x[-1] - x.min())
-            print(f"\nlength {row['length']:.4f}, width {row['width']:.4f}, hollow {hollows[-1]:.4f} R")
+            print(f"\nlength {row['length']:.4f}, width {row['width']:.4f}, hollow "
+                  f"{hollows[-1]:.4f} R")
             self.assertLess(row["width"], 0.985)
         self.assertGreater(self.rows[2]["length"] - self.rows[1]["length"], 0.1)
         self.assertLess(hollows[0], 0.1)

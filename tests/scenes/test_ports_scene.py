@@ -11,8 +11,10 @@ class Ports(unittest.TestCase):
         errors = []
         for dx in (1.6, 0.8):
             result = run_example("ports", dx=dx)
-            profile, gradient, entered, halfway = study.measure(study.Grid(result.path("flow.grid")), dx, study.LENGTH)
-            print(f"\ndx {dx}: profile {profile:.2%}, gradient {gradient:+.2%}, flow {entered:+.2%} {halfway:+.2%}")
+            profile, gradient, entered, halfway = study.measure(
+                study.Grid(result.path("flow.grid")), dx, study.LENGTH)
+            print(f"\ndx {dx}: profile {profile:.2%}, gradient {gradient:+.2%}, flow "
+                  f"{entered:+.2%} {halfway:+.2%}")
             errors.append((profile, abs(gradient), abs(halfway)))
             last = result.thermo
             self.assertLess(last["f_flow[11]"][0], 1e-13)

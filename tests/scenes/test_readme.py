@@ -21,14 +21,16 @@ class Scenes(unittest.TestCase):
         strain, viscosity = table["Time"] * 1e-4, table["v_relative"]
         print(f"\nviscosity over that of plasma {viscosity[strain > 5].mean():.3f}")
         self.assertGreater(strain[-1], 9)
-        # cells dissipate more than they would far apart, Einstein's 1 + 2.5 phi, and less than those of whole blood of 43 %
-        # at 124 /s, which adhere and have a more viscous inside: 5 (Wells and Merrill 1962)
+        # cells dissipate more than they would far apart, Einstein's 1 + 2.5 phi, and less than
+        # those of whole blood of 43 % at 124 /s, which adhere and have a more viscous inside: 5
+        # (Wells and Merrill 1962)
         self.assertGreater(viscosity[strain > 1].min(), 1 + 2.5 * 0.4)
         self.assertLess(viscosity.max(), 5)
 
     def test_without_variables(self):
         script = PLAIN.read_text(encoding="utf-8").replace("../../potentials", str(POTENTIALS))
-        script = script.replace("run             500", "run 50").replace("thermo          50", "thermo 10")
+        script = script.replace("run             500", "run 50").replace("thermo          50",
+                                                                         "thermo 10")
         result = run(script, 2, timeout=500)
         warned = re.findall(r"WARNING: (Fix rbc.*)", result.printed)    # as its README says
         self.assertTrue(len(warned) == 2 and all("dense.blood" in line for line in warned), warned)

@@ -1,5 +1,6 @@
-"""A rouleau of coarse cells at 100 and 200 /s: without adhesion it comes apart, adhesion of several times the shear stress times the radius of a
-cell holds it together (the dimensional estimate of the scene's README)."""
+"""A rouleau of coarse cells at 100 and 200 /s: without adhesion it comes apart, adhesion of several
+times the shear stress times the radius of a cell holds it together (the dimensional estimate of the
+scene's README)."""
 
 import unittest
 

@@ -1,4 +1,5 @@
-"""A red cell in optical tweezers, on a coarse mesh: the loads' work is the membrane's energy; diameters as measured."""
+"""A red cell in optical tweezers, on a coarse mesh: the loads' work is the membrane's energy;
+diameters as measured."""
 
 import unittest
 
@@ -18,11 +19,13 @@ class Stretch(unittest.TestCase):
         cls.found = STUDY.read_results(folder)
 
     def test_work_is_energy(self):
-        # The beads do not turn and their contact is rigid: the axial diameter changes as their distance. Simpson's rule
-        # for the complementary work is exact to 1e-5 here; what is left is the rest of the motion, in proportion to
-        # the speed `still` at which a shape counts as steady.
+        # The beads do not turn and their contact is rigid: the axial diameter changes as their
+        # distance. Simpson's rule for the complementary work is exact to 1e-5 here; what is left is
+        # the rest of the motion, in proportion to the speed `still` at which a shape counts as
+        # steady.
         axial, energy = self.found["axial"], 1e3 * self.found["energy"]
-        work = LOADS[2] * axial[2] - LOADS[0] * axial[0] - (LOADS[1] - LOADS[0]) / 3 * np.dot([1, 4, 1], axial)
+        work = (LOADS[2] * axial[2] - LOADS[0] * axial[0] -
+                (LOADS[1] - LOADS[0]) / 3 * np.dot([1, 4, 1], axial))
         error = work / (energy[2] - energy[0]) - 1
         print(f"\nwork {work:.4f} aJ, energy {energy[2] - energy[0]:.4f} aJ: {error:+.2e}")
         self.assertLess(abs(error), 0.002)
@@ -30,7 +33,8 @@ class Stretch(unittest.TestCase):
     def test_diameters_are_inside_the_error_bars(self):
         data = STUDY.reference("01a_stretch_mills2004_errorbars.csv")
         for measured, name in (("axial", "axial"), ("transverse", "trans")):
-            low, high = (np.interp(LOADS, data["force_pN"], data[f"D_{name}_{end}"]) for end in ("lo", "hi"))
+            low, high = (np.interp(LOADS, data["force_pN"], data[f"D_{name}_{end}"])
+                         for end in ("lo", "hi"))
             print(f"\n{measured}: {self.found[measured]}, measured {low} to {high}")
             self.assertTrue(np.all((low < self.found[measured]) & (self.found[measured] < high)))
 
@@ -46,7 +50,8 @@ class Stretch(unittest.TestCase):
             self.assertLess(abs(error), 3e-3)
 
     def test_volume_is_kept(self):
-        # The modulus of 3 kPa lets the pressure of the membrane, a few Pa, change it by a thousandth.
+        # The modulus of 3 kPa lets the pressure of the membrane, a few Pa, change it by a
+        # thousandth.
         volume = polyhedron(COARSE["shape"])[1]
         self.assertLess(abs(self.found["volume"] / volume - 1).max(), 1e-3)
 
