@@ -15,17 +15,19 @@ LAWS = {
     "dihedral": "neo-hookean 0.005 bending 2.0e-3 dihedral -0.3 area 0 0.02",
 }
 
-# No fluid: atoms stay where they are put. The cell straddles an edge of the box and is out of shape.
+# No fluid: atoms stay where they are put. The cell straddles an edge of the box and is out of
+# shape.
 STRAIN = {"x": 1.10, "y": 0.93, "z": 1.05}
 DEFORM = "\n".join(
     [f"variable {d} atom {STRAIN[d]}*{d}" for d in STRAIN] +
-    ["change_box all boundary p p p", "set group all x v_x y v_y z v_z", "displace_atoms all random 0.02 0.02 0.02 77",
-     "displace_atoms all move 6.0 6.3 5.5"])
+    ["change_box all boundary p p p", "set group all x v_x y v_y z v_z",
+     "displace_atoms all random 0.02 0.02 0.02 77", "displace_atoms all move 6.0 6.3 5.5"])
 
 
 def membrane_scene(law, **changes):
     lines = dict(boundary="boundary p p p", cells="rbc/create rbc single 6 6 6 rotate 30 1 2 0",
-                 membrane=f"fix mem all rbc/membrane rbc {law}\nfix_modify mem energy yes virial yes",
+                 membrane=f"fix mem all rbc/membrane rbc {law}\n"
+                          "fix_modify mem energy yes virial yes",
                  fluid=None, ib=None, every="thermo 1", dump=dump_line(1),
                  thermo="thermo_style custom step pe f_mem f_mem[1] f_mem[2] f_mem[3] f_mem[4] "
                         "press pxx pyy pzz pxy pxz pyz",
@@ -44,7 +46,8 @@ class Forces(unittest.TestCase):
         self.assertGreater(abs(given - without).max(), 1e-3 * abs(without).max())
 
     def test_limits_by_fix_modify_are_checked(self):
-        for limits, message in (("crease 0.05 180", "crease angle value 180 must be below 180 degrees"),
+        for limits, message in (("crease 0.05 180",
+                                 "crease angle value 180 must be below 180 degrees"),
                                 ("stretch 0.05 1", "stretch lambda value 1 must be above 1"),
                                 ("crease 0.05 45", "crease needs a bending modulus > 0")):
             with self.subTest(limits):
@@ -67,12 +70,14 @@ class Forces(unittest.TestCase):
         for name, law in LAWS.items():
             for ranks in (1, 2):
                 with self.subTest(name, ranks=ranks):
-                    result = run(membrane_scene(law, run="run 0\nundump atoms\n" + "\n".join(moves)), ranks)
+                    result = run(
+                        membrane_scene(law, run="run 0\nundump atoms\n" + "\n".join(moves)), ranks)
                     energy = result.thermo["f_mem"][1:]
                     numerical = -(energy[0::2] - energy[1::2]).reshape(-1, 3) / (2 * step)
                     forces = result.dump().forces()[np.array(atoms) - 1]
                     worst = abs(numerical - forces).max() / abs(forces).max()
-                    print(f"\n{name}, {ranks} ranks: forces differ from the gradient by {worst:.2g}")
+                    print(
+                        f"\n{name}, {ranks} ranks: forces differ from the gradient by {worst:.2g}")
                     self.assertLess(worst, 1e-6)
 
     def test_no_net_force_and_torque(self):
@@ -83,7 +88,8 @@ class Forces(unittest.TestCase):
                     f, x = dump.forces(), dump.positions()
                     largest = abs(f).max()
                     self.assertLess(abs(f.sum(axis=0)).max(), 1e-12 * largest * len(f))
-                    self.assertLess(abs(np.cross(x - x.mean(axis=0), f).sum(axis=0)).max(), 1e-11 * largest * len(f))
+                    self.assertLess(abs(np.cross(x - x.mean(axis=0), f).sum(axis=0)).max(),
+                                    1e-11 * largest * len(f))
 
     def test_the_stress_free_shape_turned_has_no_force(self):
         law = LAWS["mooney-rivlin"]
@@ -91,7 +97,8 @@ class Forces(unittest.TestCase):
         for rotate in ("", "rotate 90 1 0 0", "rotate 33 1 2 3"):
             for ranks in (1, 2):
                 with self.subTest(rotate, ranks=ranks):
-                    result = run(membrane_scene(law, last=None, cells=f"rbc/create rbc single 6 6 6 {rotate}"), ranks)
+                    result = run(membrane_scene(
+                        law, last=None, cells=f"rbc/create rbc single 6 6 6 {rotate}"), ranks)
                     self.assertLess(abs(result.dump().forces()).max(), 1e-11 * scale)
                     self.assertLess(abs(result.thermo["f_mem"][0]), 1e-12 * scale)
 
@@ -119,7 +126,8 @@ class Forces(unittest.TestCase):
                 once, back = (1 - step) / (1 + step) - 1, 1 / (1 - step) - 1
             set_to = f"set group all {to} v_m"
             for strain in (step, once):
-                runs.append(f"variable m atom {to}+({strain!r})*({by}-v_c{by})\n{set_to}\nrun 0 post no")
+                runs.append(f"variable m atom {to}+({strain!r})*({by}-v_c{by})\n{set_to}\n"
+                            "run 0 post no")
             runs.append(f"variable m atom {to}+({back!r})*({by}-v_c{by})\n{set_to}")
         for name, law in LAWS.items():
             with self.subTest(name):
@@ -128,7 +136,8 @@ class Forces(unittest.TestCase):
                 energy = thermo["f_mem"][1:]
                 volume = 12.0**3
                 numerical = -(energy[0::2] - energy[1::2]) / (2 * step) / volume
-                pressure = np.array([thermo[column][0] for column in ("Pxx", "Pyy", "Pzz", "Pxy", "Pxz", "Pyz")])
+                pressure = np.array(
+                    [thermo[column][0] for column in ("Pxx", "Pyy", "Pzz", "Pxy", "Pxz", "Pyz")])
                 np.testing.assert_allclose(pressure, numerical, atol=1e-6 * abs(numerical).max())
                 np.testing.assert_allclose(thermo["Press"][0], pressure[:3].mean(), rtol=1e-12)
 
@@ -143,7 +152,8 @@ class Forces(unittest.TestCase):
         for move in ("0 0 0", "3 1 4"):
             for ranks in (1, 4):
                 with self.subTest(move, ranks=ranks):
-                    np.testing.assert_allclose(pressure(move, ranks), first, atol=1e-11 * abs(first).max())
+                    np.testing.assert_allclose(pressure(move, ranks), first,
+                                               atol=1e-11 * abs(first).max())
 
 
 if __name__ == "__main__":

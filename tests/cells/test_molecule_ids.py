@@ -44,12 +44,14 @@ class MoleculeIDs(BadInput):
         lines = dict(box="region box block 0 30 0 12 0 12", before="group held molecule 1",
                      cells="\n".join(f"rbc/create rbc single {x} 6 6" for x in (5, 15, 25)),
                      membrane=SHEAR["membrane"].replace("all", "held"))
-        for changes, said in (({}, "moves 2 cells without a membrane (the first has molecule ID 2)"),
-                              (dict(before="group held molecule 1 3"), "moves 1 cell without a membrane (the first "),
-                              (dict(membrane=None, thermo=None), "moves 3 cells without a membrane (the first "),
-                              (dict(before="group held molecule 1 2 3"), ""),
-                              (dict(ib=SHEAR["ib"].replace("all", "held")), ""),
-                              (dict(membrane=None, thermo=None, last="set group all mol 0"), "")):
+        for changes, said in (
+                ({}, "moves 2 cells without a membrane (the first has molecule ID 2)"),
+                (dict(before="group held molecule 1 3"),
+                 "moves 1 cell without a membrane (the first "),
+                (dict(membrane=None, thermo=None), "moves 3 cells without a membrane (the first "),
+                (dict(before="group held molecule 1 2 3"), ""),
+                (dict(ib=SHEAR["ib"].replace("all", "held")), ""),
+                (dict(membrane=None, thermo=None, last="set group all mol 0"), "")):
             for ranks in (1, 2):
                 with self.subTest(changes, ranks=ranks):
                     result = run(scene(**{**lines, **changes}), ranks)

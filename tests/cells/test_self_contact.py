@@ -7,7 +7,8 @@ import unittest
 
 import numpy as np
 
-from contact_case import ADHESIVE, COMPUTES, K, NUMERICAL, R, RADIUS, REPULSIVE, SIGMA, THERMO, contact, force_of_equation_7
+from contact_case import (ADHESIVE, COMPUTES, K, NUMERICAL, R, RADIUS, REPULSIVE, SIGMA, THERMO,
+                          contact, force_of_equation_7)
 from lammps_case import POTENTIALS, dump_line, run
 
 sys.path.insert(0, str(POTENTIALS))
@@ -19,7 +20,8 @@ def plate(frequency, thickness):
     """Vertices and triangles of a flat disc of that thickness."""
     points, triangles = shapes.geodesic(frequency)
     half = thickness / 2
-    return RADIUS * shapes.revolved(points, lambda x: half / RADIUS * np.sqrt(np.maximum(0, 1 - x**12))), triangles
+    return RADIUS * shapes.revolved(
+        points, lambda x: half / RADIUS * np.sqrt(np.maximum(0, 1 - x**12))), triangles
 
 
 def folded(points, gap, thickness):
@@ -39,7 +41,8 @@ def voronoi_areas(points, triangles):
     for corner in range(3):
         a, b, c = (points[np.roll(triangles, -corner, axis=1)[:, n]] for n in range(3))
         twice = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-        at_a, at_b, at_c = (((q - p) * (r - p)).sum(axis=1) for p, q, r in ((a, b, c), (b, c, a), (c, a, b)))
+        at_a, at_b, at_c = (((q - p) * (r - p)).sum(axis=1)
+                            for p, q, r in ((a, b, c), (b, c, a), (c, a, b)))
         share = (((b - a)**2).sum(axis=1) * at_c + ((c - a)**2).sum(axis=1) * at_b) / twice / 8
         acute = (at_a > 0) & (at_b > 0) & (at_c > 0)
         np.add.at(areas, np.array(triangles)[:, corner], np.where(acute, share, np.nan))
@@ -63,7 +66,8 @@ class SelfContact(unittest.TestCase):
     NEAR = 1.6    # from the middle of a flat part
     NOISE = "\ndisplace_atoms all random 0.01 0.01 0.01 5"    # no vertex is as near to two places
 
-    def scene(self, name, self_contact="self yes", coeff=ADHESIVE, noise="", frequency=8, **changes):
+    def scene(self, name, self_contact="self yes", coeff=ADHESIVE, noise="", frequency=8,
+              **changes):
         """The scene, its files, rest shape and triangles, which vertices lie in the flat parts that
         face each other."""
         thickness = self.GAP if name == "inside" else self.THICK
@@ -81,9 +85,10 @@ class SelfContact(unittest.TestCase):
             files[axis] = f"{len(x)}\n{values}\n"
             lines += [f"variable {axis} atomfile {axis}", f"set group all {axis} v_{axis}"]
         changes.setdefault("dump", dump_line(1, columns="id xu yu zu fx fy fz c_ea"))
-        changes["neighbor"] = "neighbor 0.5 bin\ncomm_modify cutoff 3.5"    # the fold stretches edges
-        made = contact(coeff, f"pair_style rbc/jkr 0.4 {self_contact}", molecule="molecule rbc plate.mol",
-                       cells="\n".join(lines) + noise, **changes)
+        # the fold stretches edges
+        changes["neighbor"] = "neighbor 0.5 bin\ncomm_modify cutoff 3.5"
+        made = contact(coeff, f"pair_style rbc/jkr 0.4 {self_contact}",
+                       molecule="molecule rbc plate.mol", cells="\n".join(lines) + noise, **changes)
         return made, files, rest, triangles, flat
 
     def test_energy_of_faces(self):
@@ -96,12 +101,15 @@ class SelfContact(unittest.TestCase):
                 areas = voronoi_areas(rest, triangles)[flat]
                 known = np.isfinite(areas)
                 ratio = dump("c_ea")[flat][known] / (areas[known] / 2 * expected)
-                print(f"\n{name}: energies of {known.sum()} vertices over equation 7: {ratio.min():.6f} to {ratio.max():.6f}")
+                print(f"\n{name}: energies of {known.sum()} vertices over equation 7: "
+                      f"{ratio.min():.6f} to {ratio.max():.6f}")
                 self.assertGreater(known.sum(), 12)
                 self.assertLess(abs(ratio - 1).max(), 2e-3)    # faces are not quite flat
-                # what is pushed inward from the inside of a plate goes outward, and the arms of the U away from each other
+                # what is pushed inward from the inside of a plate goes outward, and the arms of the
+                # U away from each other
                 f, x = dump.forces(), dump.positions() - 6
-                outward = np.sign(x[:, 2]) * f[:, 2] if name == "inside" else np.sign(x[:, 0]) * f[:, 0]
+                outward = (np.sign(x[:, 2]) * f[:, 2]
+                           if name == "inside" else np.sign(x[:, 0]) * f[:, 0])
                 self.assertGreater(outward[flat].min(), 0)
                 self.assertLess(abs(f.sum(axis=0)).max(), 1e-15 * abs(f).sum())
                 self.assertLess(abs(np.cross(x, f).sum(axis=0)).max(), 1e-14 * abs(f).sum())
@@ -123,7 +131,8 @@ class SelfContact(unittest.TestCase):
         for name in ("inside", "outside"):
             for words in ("self no", ""):
                 made, files, *_ = self.scene(name, words)
-                self.assertLess(abs(run(made, files=files).dump().forces()).max(), 1e-20)    # of the membrane
+                # of the membrane
+                self.assertLess(abs(run(made, files=files).dump().forces()).max(), 1e-20)
 
     def test_other_cells_are_seen_as_before(self):
         f = run(contact()).dump().forces()
@@ -147,7 +156,8 @@ class SelfContact(unittest.TestCase):
         for name in ("inside", "outside"):
             with self.subTest(name):
                 made, files, *_ = self.scene(
-                    name, noise=self.NOISE, frequency=4, compute=COMPUTES + "\nfix numerical all numdiff/virial 1 1e-6",
+                    name, noise=self.NOISE, frequency=4,
+                    compute=COMPUTES + "\nfix numerical all numdiff/virial 1 1e-6",
                     thermo=THERMO + "".join(f" f_numerical[{n}]" for n in range(1, 7)))
                 thermo = run(made, files=files).thermo
                 virial = np.array([thermo[f"c_press[{n}]"][0] for n in (1, 2, 3, 6, 5, 4)])
@@ -155,44 +165,52 @@ class SelfContact(unittest.TestCase):
                 np.testing.assert_allclose(virial, numerical, atol=1e-6 * abs(virial).max(), rtol=0)
                 np.testing.assert_allclose(thermo["c_sums[1]"], thermo["c_pe"], rtol=1e-12)
                 for n in range(1, 7):
-                    np.testing.assert_allclose(-thermo[f"c_sums[{n + 1}]"] / 12**3, thermo[f"c_press[{n}]"], rtol=1e-11)
+                    np.testing.assert_allclose(-thermo[f"c_sums[{n + 1}]"] / 12**3,
+                                               thermo[f"c_press[{n}]"], rtol=1e-11)
 
     def test_switched_off_and_overlaid(self):
         made, files, *_ = self.scene("outside", noise=self.NOISE)
         forces = run(made, files=files).dump().forces()
         off = made + f"pair_style rbc/jkr 0.4 self no\n{ADHESIVE}\nrun 1\n"
-        self.assertLess(abs(run(off, files=files).dump().forces(-1)).max(), 1e-20)    # of the membrane
+        # of the membrane
+        self.assertLess(abs(run(off, files=files).dump().forces(-1)).max(), 1e-20)
         both = made.replace("pair_style rbc/jkr 0.4 self yes",
                             "pair_style hybrid/overlay rbc/jkr 0.4 self yes rbc/jkr 0.3")
         both = both.replace(ADHESIVE, f"pair_coeff * * rbc/jkr 1 adhesive {K} {SIGMA} {R}\n"
                                       f"pair_coeff * * rbc/jkr 2 repulsive {K} {R}")
-        both = both.replace("compute contact all pair rbc/jkr", "compute contact all pair rbc/jkr 1")
-        np.testing.assert_allclose(run(both, files=files).dump().forces(), forces, atol=1e-14 * abs(forces).max(), rtol=0)
+        both = both.replace("compute contact all pair rbc/jkr",
+                            "compute contact all pair rbc/jkr 1")
+        np.testing.assert_allclose(run(both, files=files).dump().forces(), forces,
+                                   atol=1e-14 * abs(forces).max(), rtol=0)
 
     def test_its_periodic_image_is_the_cell_itself(self):
         # a row of cells, of which one or two are in the box
         one = "rbc/create rbc single 3.975 6 6 rotate 10 0 0 1"
         two = one + "\nrbc/create rbc single 11.925 6 6 rotate 10 0 0 1"
-        apart = [run(contact(pair=f"pair_style rbc/jkr 0.5 self {own}", box=f"region box block 0 {length} 0 12 0 12",
+        apart = [run(contact(pair=f"pair_style rbc/jkr 0.5 self {own}",
+                             box=f"region box block 0 {length} 0 12 0 12",
                              cells=cells, neighbor="neighbor 0.3 bin")).dump().forces()
                  for own, length, cells in (("yes", 7.95, one), ("no", 15.9, two))]
         self.assertGreater(abs(apart[0]).max(), 1e-4)
-        np.testing.assert_allclose(apart[0], apart[1][:len(apart[0])], atol=1e-12 * abs(apart[0]).max(), rtol=0)
+        np.testing.assert_allclose(apart[0], apart[1][:len(apart[0])],
+                                   atol=1e-12 * abs(apart[0]).max(), rtol=0)
 
     def test_atoms_with_the_molecule_id_of_a_cell(self):
         made, files, *_ = self.scene("outside", noise=self.NOISE)
         forces = run(made, files=files).dump().forces()
         others = made.replace("create_box 1 box angle/types 1", "create_box 2 box angle/types 1")
-        others = others.replace("fix mem all", "create_atoms 2 single 6.1 6 7.6\ncreate_atoms 2 single 6.2 6 8.6\n"
+        others = others.replace("fix mem all",
+                                "create_atoms 2 single 6.1 6 7.6\ncreate_atoms 2 single 6.2 6 8.6\n"
                                 "set type 2 mol 1\nmass * 1\ngroup cell type 1\nfix mem cell")
         others = others.replace(ADHESIVE, ADHESIVE.replace("* *", "1 1") + "\npair_coeff * 2 none")
         np.testing.assert_allclose(run(others, files=files).dump().forces()[:len(forces)], forces,
                                    atol=1e-14 * abs(forces).max(), rtol=0)
 
     def test_moves_on_any_number_of_ranks(self):
-        moving = dict(fluid="fix flow all rbc/fluid dx 0.5 viscosity 1.5 density 1.025 inertia none",
-                      ib="fix ib all rbc/ib flow kernel peskin4 integrator rkc auto", timestep="timestep 300",
-                      run="run 12", dump=dump_line(12, columns="id xu yu zu fx fy fz"))
+        moving = dict(
+            fluid="fix flow all rbc/fluid dx 0.5 viscosity 1.5 density 1.025 inertia none",
+            ib="fix ib all rbc/ib flow kernel peskin4 integrator rkc auto", timestep="timestep 300",
+            run="run 12", dump=dump_line(12, columns="id xu yu zu fx fy fz"))
         for name in ("inside", "outside"):
             reference = None
             for ranks in (1, 2, 4):
@@ -202,12 +220,14 @@ class SelfContact(unittest.TestCase):
                     reference = x if reference is None else reference
                     np.testing.assert_allclose(x, reference, atol=1e-9, rtol=0)
             made, files, *_ = self.scene(name, "self no", noise=self.NOISE, **moving)
-            self.assertGreater(abs(run(made, files=files).dump().positions() - reference).max(), 0.1)
+            self.assertGreater(abs(run(made, files=files).dump().positions() - reference).max(),
+                               0.1)
 
     def test_ranks(self):
         for name in ("inside", "outside"):
             reference = None
-            for ranks, newton, last in ((1, "newton on", ""), (2, "newton off", ""), (4, "newton on", ""),
+            for ranks, newton, last in ((1, "newton on", ""), (2, "newton off", ""),
+                                        (4, "newton on", ""),
                                         (2, "newton on", "displace_atoms all move 6 0 6")):
                 with self.subTest(name, ranks=ranks, newton=newton, last=last):
                     made, files, *_ = self.scene(name, newton=newton, last=last, noise=self.NOISE)
@@ -220,7 +240,8 @@ class SelfContact(unittest.TestCase):
         whole = run(made, files=files)
         later = dict.fromkeys(("units", "boundary", "box", "create_box", "before"))
         made, files, *_ = self.scene("outside", **later, style=f"read_restart {whole.path('r')}")
-        made = "\n".join(line for line in made.splitlines() if not line.startswith(("rbc/create", "variable", "set ")))
+        made = "\n".join(line for line in made.splitlines()
+                         if not line.startswith(("rbc/create", "variable", "set ")))
         np.testing.assert_array_equal(run(made, files=files).dump().forces(), whole.dump().forces())
 
 

@@ -22,18 +22,21 @@ class Shapes(unittest.TestCase):
         for shape in ("disc --diameter 7.82", "sphere --radius 3"):
             for frequency, ranks in ((1, 1), (1, 2), (32, 2)):
                 with self.subTest(shape, frequency=frequency, ranks=ranks):
-                    atoms = self.check([*shape.split(), "--frequency", frequency], 20, ranks, run="run 10")
+                    atoms = self.check([*shape.split(), "--frequency", frequency], 20, ranks,
+                                       run="run 10")
                     self.assertEqual(atoms, 10 * frequency**2 + 2)
 
     def test_platelet_and_white_cell(self):
-        self.check("spheroid --axis-ratio 0.3333333 --diameter 2.4 --frequency 4".split(), 20, 1, run="run 200")
+        self.check("spheroid --axis-ratio 0.3333333 --diameter 2.4 --frequency 4".split(), 20, 1,
+                   run="run 200")
         self.check("sphere --radius 4 --frequency 6".split(), 100, 2, run="run 100")
 
     def test_sickle_from_a_file(self):
         surface = Path.cwd() / "sickle.stl"
         make_template(*"sickle --frequency 6 --surface".split(), surface)
         self.check(["mesh", surface, "--area", 100], 100, 2, run="run 100",
-                   box="region box block 0 18 0 18 0 12", cells="rbc/create rbc single 9 9 6 rotate 30 1 0 0")
+                   box="region box block 0 18 0 18 0 12",
+                   cells="rbc/create rbc single 9 9 6 rotate 30 1 0 0")
 
 
 if __name__ == "__main__":

@@ -19,7 +19,8 @@ def spheroid(reduced_volume):
 
 
 def stretched_energy(rest, x, triangles, shear, local):
-    """Energy of a neo-Hookean sheet and the local area term, from stretches of the edges' Gram matrices."""
+    """Energy of a neo-Hookean sheet and the local area term, from stretches of the edges' Gram
+    matrices."""
     def gram(points):
         edges = points[triangles[:, 1:]] - points[triangles[:, :1]]
         return edges @ edges.transpose(0, 2, 1)
@@ -60,11 +61,13 @@ class StressFree(unittest.TestCase):
 
     def test_restart_bit_for_bit(self):
         lines = dict(before=f"molecule round {spheroid(0.95)}",
-                     membrane=f"fix mem all rbc/membrane rbc {SHEET} stress-free round", dump=dump_line(20))
-        whole = run(scene(**{**lines, "dump": None, "run": "run 20\nwrite_restart r.restart\n" + lines["dump"] +
-                             "\nrun 20"}), 2)
-        again = run(scene(**lines, units=None, style=f"read_restart {whole.path('r.restart')}", boundary=None, box=None,
-                          create_box=None, cells=None, run="run 20"), 2)
+                     membrane=f"fix mem all rbc/membrane rbc {SHEET} stress-free round",
+                     dump=dump_line(20))
+        whole = run(scene(
+            **{**lines, "dump": None, "run": "run 20\nwrite_restart r.restart\n" + lines["dump"] +
+               "\nrun 20"}), 2)
+        again = run(scene(**lines, units=None, style=f"read_restart {whole.path('r.restart')}",
+                          boundary=None, box=None, create_box=None, cells=None, run="run 20"), 2)
         np.testing.assert_array_equal(again.dump().frames, whole.dump().frames)
 
 

@@ -1,10 +1,12 @@
-"""Extreme cells and flows: right, by a law that holds there, or stopped with a message and all data on disk."""
+"""Extreme cells and flows: right, by a law that holds there, or stopped with a message and all data
+on disk."""
 
 import unittest
 
 import numpy as np
 
-from lammps_case import POTENTIALS, SHEAR, dump_line, in_parallel, make_template, read_template, run, scene
+from lammps_case import (POTENTIALS, SHEAR, dump_line, in_parallel, make_template, read_template,
+                         run, scene)
 
 BOX, RATE, DT = 12.0, 1e-4, 200.0    # 100/s; a healthy cell is stable up to some 2000 us
 DIAMETER = 7.82
@@ -28,7 +30,8 @@ def fluid(rate=RATE, viscosity=1.5, dx=1.0, height=BOX):
 
 def shear(ranks=1, factor=1.0, rate=RATE, viscosity=1.5, dt=DT, steps=40, **changes):
     """Positions at the start and at the end of a run, and the run."""
-    result = run(scene(**{**dict(membrane=membrane(factor), fluid=fluid(rate, viscosity), timestep=f"timestep {dt!r}",
+    result = run(scene(**{**dict(membrane=membrane(factor), fluid=fluid(rate, viscosity),
+                                 timestep=f"timestep {dt!r}",
                                  dump=dump_line(steps), run=f"run {steps}"), **changes}), ranks)
     return result.dump().positions(0), result.dump().positions(), result
 
@@ -43,7 +46,8 @@ def rms(x):
 
 
 def change_of_shape(a, b):
-    """Root mean square distance of the vertices after the best rotation and translation (Kabsch)."""
+    """Root mean square distance of the vertices after the best rotation and translation
+    (Kabsch)."""
     a, b = a - a.mean(axis=0), b - b.mean(axis=0)
     u, _, v = np.linalg.svd(a.T @ b)
     return rms(b - a @ (u * [1, 1, np.sign(np.linalg.det(u @ v))]) @ v)
@@ -60,8 +64,10 @@ def area(x, triangles):
 
 
 def cut_edges(x, triangles):
-    """Number of pairs of an edge and a triangle without a common vertex that cut (Moller and Trumbore)."""
-    edges = np.unique(np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])), axis=0)
+    """Number of pairs of an edge and a triangle without a common vertex that cut (Moller and
+    Trumbore)."""
+    edges = np.unique(np.sort(
+        np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])), axis=0)
     corner, e1, e2 = x[triangles[:, 0]], *(x[triangles[:, c]] - x[triangles[:, 0]] for c in (1, 2))
     cuts = 0
     for a, b in edges:
@@ -95,14 +101,18 @@ class Limits(unittest.TestCase):
             _, fast, _ = shear(factor=1e3, rate=1e3 * RATE, dt=DT / 1e3,
                                ib=SHEAR["ib"].replace("midpoint", integrator))
             apart = abs(fast - base).max() / DIAMETER
-            print(f"\n1e5/s, moduli and step that go with it, {integrator}: {apart:.2g} diameters apart")
+            print(f"\n1e5/s, moduli and step that go with it, {integrator}: {apart:.2g} diameters "
+                  "apart")
             self.assertLess(apart, 1e-12)
 
     def test_healthy_cell_at_100000_per_second_on_any_ranks(self):
-        # drawn out to many times its length, farther than half the box: periodic images must not be mistaken
+        # drawn out to many times its length, farther than half the box: periodic images must not be
+        # mistaken
         _, triangles = read_template(POTENTIALS / "rbc_162.mol")
-        layouts = [(1, ""), (2, "processors 2 1 1"), (2, "processors 1 1 2"), (4, "processors 2 2 1")]
-        runs = in_parallel(lambda ranks, layout: shear(ranks, rate=0.1, dt=0.2, steps=500, processors=layout), layouts)
+        layouts = [(1, ""), (2, "processors 2 1 1"), (2, "processors 1 1 2"),
+                   (4, "processors 2 2 1")]
+        runs = in_parallel(lambda ranks, layout: shear(ranks, rate=0.1, dt=0.2, steps=500,
+                                                       processors=layout), layouts)
         start, one, _ = runs[0]
         self.assertGreater(np.ptp(one[:, 0]), 4 * BOX)
         self.assertLess(abs(volume(one, triangles) / volume(start, triangles) - 1), 1e-5)
@@ -119,23 +129,28 @@ class Limits(unittest.TestCase):
             away.append(rms(end - affine(start, 40 * DT * RATE)) / DIAMETER)
         print(f"\nmoduli times {factors}: {away} diameters from simple shear")
         self.assertLess(away[-1], 1e-4)
-        beyond = [10 - stiffer / softer for stiffer, softer in zip(away, away[1:])]    # of second order in the moduli
+        # of second order in the moduli
+        beyond = [10 - stiffer / softer for stiffer, softer in zip(away, away[1:])]
         self.assertLess(abs(beyond[0]), 40 * factors[0])
         self.assertAlmostEqual(beyond[0] / beyond[1], 10, delta=1)
 
     def test_stiff_cells_move_as_with_short_explicit_steps(self):
-        # long steps do not resolve how the stress builds up at the start; what they miss decays over some tens of steps
+        # long steps do not resolve how the stress builds up at the start; what they miss decays
+        # over some tens of steps
         for factor, dt, short in ((1e2, 100.0, 5.0), (1e4, 20.0, 0.05)):
             (start, end, _), (_, explicit, _) = in_parallel(
-                lambda *case: shear(factor=factor, ib=case[0], dt=case[1], steps=case[2], every="thermo 1000"),
+                lambda *case: shear(factor=factor, ib=case[0], dt=case[1], steps=case[2],
+                                    every="thermo 1000"),
                 [(AUTO, dt, 60), (SHEAR["ib"], short, round(60 * dt / short))])
             off = rms(end - explicit) / rms(explicit - start)
-            print(f"\nmoduli times {factor:g}: rkc in {round(dt / short)} times as long steps differs by {off:.2g} of the motion")
+            print(f"\nmoduli times {factor:g}: rkc in {round(dt / short)} times as long steps "
+                  f"differs by {off:.2g} of the motion")
             self.assertLess(off, 1e-3)
 
     def test_moduli_1e7_and_1e8_times_healthy(self):
         # what is left of a change of shape is the stress of the flow over the modulus
-        runs = in_parallel(lambda factor: shear(factor=factor, ib=AUTO, dt=2.0, steps=20), [(1e7,), (1e8,)])
+        runs = in_parallel(lambda factor: shear(factor=factor, ib=AUTO, dt=2.0, steps=20),
+                           [(1e7,), (1e8,)])
         changes = [change_of_shape(start, end) / DIAMETER for start, end, _ in runs]
         print(f"\nmoduli times 1e7, 1e8: shape changes by {changes} diameters")
         self.assertAlmostEqual(changes[0] / changes[1], 10, delta=0.3)
@@ -150,7 +165,8 @@ class Limits(unittest.TestCase):
         away = []
         for Ca in (20.0, 40.0, 80.0):
             modulus = 1.5 * RATE * radius / Ca
-            start, end, _ = shear(molecule="molecule rbc ../ball.mol", steps=50, cells="rbc/create rbc single 6 6 6",
+            start, end, _ = shear(molecule="molecule rbc ../ball.mol", steps=50,
+                                  cells="rbc/create rbc single 6 6 6",
                                   membrane=f"fix mem all rbc/membrane rbc neo-hookean {modulus!r}")
             away.append(rms(end - affine(start, 50 * DT * RATE)) / radius)
             self.assertLess(abs(volume(end, triangles) / volume(start, triangles) - 1), 1e-5)
@@ -170,8 +186,8 @@ class Limits(unittest.TestCase):
 class Meshes(unittest.TestCase):
     def test_12_vertices(self):
         for shape in ("disc", "sphere"):
-            make_template(shape, *(("--radius", 3) if shape == "sphere" else ()), "--frequency", 1, "--output",
-                          f"{shape}.mol")
+            make_template(shape, *(("--radius", 3) if shape == "sphere" else ()), "--frequency", 1,
+                          "--output", f"{shape}.mol")
             _, triangles = read_template(f"{shape}.mol")
             lines = dict(molecule=f"molecule rbc ../{shape}.mol", steps=250)
             start, end, _ = shear(**lines)
@@ -191,14 +207,16 @@ class Meshes(unittest.TestCase):
         axis = []
         for path in templates:
             _, triangles = read_template(path.replace("../", ""))
-            start, end, result = shear(molecule=f"molecule rbc {path}", compute="compute cell all rbc/cell",
+            start, end, result = shear(molecule=f"molecule rbc {path}",
+                                       compute="compute cell all rbc/cell",
                                        thermo="thermo_style custom step c_cell[1][8]")
             axis.append(result.thermo["c_cell[1][8]"][-1])
             self.assertLess(abs(volume(end, triangles) / volume(start, triangles) - 1), 1e-6)
             self.assertLess(abs(end.mean(axis=0) - BOX / 2).max(), 1e-9)
         self.assertEqual(len(end), 10242)
         ratio = (axis[0] - axis[1]) / (axis[1] - axis[2])
-        print(f"\nlong axis of cells of 642, 2562 and 10242 vertices: {axis} um, differences {ratio:.3f} to 1")
+        print(f"\nlong axis of cells of 642, 2562 and 10242 vertices: {axis} um, differences "
+              f"{ratio:.3f} to 1")
         self.assertAlmostEqual(ratio, 4, delta=0.1)
 
 

@@ -12,20 +12,24 @@ H, N, ETA, RHO = 12.0, 16, 1.5, 1.025
 Z = (np.arange(N) + 0.5) * H / N
 
 
-def fluid_scene(body="", lower="0 0 0", upper="0 0 0", grid=f"grid 6 4 {N}", regime="inertia none", **changes):
+def fluid_scene(body="", lower="0 0 0", upper="0 0 0", grid=f"grid 6 4 {N}", regime="inertia none",
+                **changes):
     walls = f"wall zlo {lower} wall zhi {upper}" if lower else ""
     body = f"body {body}" if body else ""
     lines = dict(cells="mass 1 1", membrane=None, ib=None,
-                 fluid=f"fix flow all rbc/fluid {grid} viscosity {ETA} density {RHO} {regime} {walls} {body}",
-                 thermo="thermo_style custom step time f_flow " + " ".join(f"f_flow[{n}]" for n in range(1, 13)),
+                 fluid=f"fix flow all rbc/fluid {grid} viscosity {ETA} density {RHO} {regime} "
+                       f"{walls} {body}",
+                 thermo="thermo_style custom step time f_flow " +
+                 " ".join(f"f_flow[{n}]" for n in range(1, 13)),
                  every="thermo 1")
     lines.update(changes)
     return scene(**lines)
 
 
 def grid_dump(every, *fields, name="grid.dump"):
-    return f"dump grid all grid {every} {name} " + " ".join(f"f_flow:grid:{field}" for field in fields) + \
-        "\ndump_modify grid sort id format float %.17g"
+    return (f"dump grid all grid {every} {name} " +
+            " ".join(f"f_flow:grid:{field}" for field in fields) +
+            "\ndump_modify grid sort id format float %.17g")
 
 
 VELOCITY = [f"velocity[{n}]" for n in (1, 2, 3)]
@@ -52,22 +56,26 @@ def vector(thermo, row=-1):
 class Steady(unittest.TestCase):
     def flow(self, ranks, force=(0, 0, 0), lower=(0, 0, 0), upper=(0, 0, 0), **changes):
         words = [" ".join(repr(float(x)) for x in triple) for triple in (force, lower, upper)]
-        result = run(fluid_scene(*words, dump=grid_dump(10, *VELOCITY, "pressure", *[v.replace("velocity", "force")
-                                                                                   for v in VELOCITY]),
+        result = run(fluid_scene(*words, dump=grid_dump(10, *VELOCITY, "pressure",
+                                                        *[v.replace("velocity", "force")
+                                                          for v in VELOCITY]),
                                  run="run 10", **changes), ranks)
         data = result.dump("grid.dump").frames[-1].reshape(N, 4, 6, 7)
         return result, data
 
     def check(self, ranks, force, lower, upper):
         result, data = self.flow(ranks, force, lower, upper)
-        speed = max(abs(np.array(lower + upper)).max(), abs(np.array(force[:2])).max() * H * H / (8 * ETA))
+        speed = max(abs(np.array(lower + upper)).max(),
+                    abs(np.array(force[:2])).max() * H * H / (8 * ETA))
         expected = np.array([discrete_profile(force[c], lower[c], upper[c]) for c in range(2)])
         for c in range(2):
-            np.testing.assert_allclose(data[..., c], np.broadcast_to(expected[c][:, None, None], (N, 4, 6)),
+            np.testing.assert_allclose(data[..., c],
+                                       np.broadcast_to(expected[c][:, None, None], (N, 4, 6)),
                                        atol=1e-10 * speed)
         np.testing.assert_allclose(data[..., 2], 0, atol=1e-10 * speed)
         # a normal force is held by the pressure
-        np.testing.assert_allclose(data[..., 3], np.broadcast_to((force[2] * (Z - H / 2))[:, None, None], (N, 4, 6)),
+        np.testing.assert_allclose(data[..., 3], np.broadcast_to(
+            (force[2] * (Z - H / 2))[:, None, None], (N, 4, 6)),
                                    atol=1e-10 * max(abs(force[2]) * H, ETA * speed / H))
         np.testing.assert_allclose(data[..., 4:], np.broadcast_to(force, (N, 4, 6, 3)),
                                    atol=1e-12 * max(1e-30, abs(np.array(force)).max()))
@@ -111,10 +119,12 @@ class Steady(unittest.TestCase):
                                              dump=grid_dump(2, *VELOCITY)), ranks)
                     data = result.dump("grid.dump").frames[-1].reshape(N, 4, 6, 3)
                     walls = [(None, u) if side == "zlo" else (u, None) for u in (0.002, -0.001)]
-                    expected = [discrete_profile(force[c], *walls[c]) for c in range(2)] + [np.zeros(N)]
+                    expected = ([discrete_profile(force[c], *walls[c]) for c in range(2)] +
+                                [np.zeros(N)])
                     for c in range(3):
                         np.testing.assert_allclose(
-                            data[..., c], np.broadcast_to(expected[c][:, None, None], (N, 4, 6)), atol=1e-11)
+                            data[..., c], np.broadcast_to(expected[c][:, None, None], (N, 4, 6)),
+                            atol=1e-11)
                     shear = [force[0] * H, force[1] * H, force[2] * H / 2]
                     free = [0, 0, force[2] * H / 2]
                     tractions = [*free, *shear] if side == "zlo" else [*shear, *free]
@@ -125,10 +135,11 @@ class Steady(unittest.TestCase):
         for scheme in ("coupled", "projection"):
             with self.subTest(scheme=scheme):
                 thermo = run(fluid_scene("1e-3 -2e-3 0", None, run="run 8",
-                                         regime=f"inertia unsteady scheme {scheme} wall zlo slip wall zhi slip")).thermo
+                                         regime=f"inertia unsteady scheme {scheme} wall zlo slip "
+                                                "wall zhi slip")).thermo
                 for n, force in ((7, 1e-3), (8, -2e-3)):
-                    np.testing.assert_allclose(thermo[f"f_flow[{n}]"], force / RHO * thermo["Time"], rtol=1e-10,
-                                               atol=1e-18)
+                    np.testing.assert_allclose(thermo[f"f_flow[{n}]"], force / RHO * thermo["Time"],
+                                               rtol=1e-10, atol=1e-18)
                 np.testing.assert_array_equal([thermo[f"f_flow[{n}]"][-1] for n in (1, 2, 4, 5)], 0)
 
     def test_couette_energy_in_the_limit(self):
@@ -144,7 +155,8 @@ class Steady(unittest.TestCase):
         # viscosity in g/mol/A/fs, body force and tractions in kcal/mol/A^3 and kcal/mol/A/A^2
         for body, upper, factors in (("0 0 0", "0.003 0 0", (48.88821291**2, 1)),
                                      ("1e-3 0 2e-3", "0 0 0", (1, 48.88821291**-2))):
-            micro, real = (vector(run(fluid_scene(body, upper=upper, units=f"units {units}", timestep=None)).thermo)
+            micro, real = (vector(
+                run(fluid_scene(body, upper=upper, units=f"units {units}", timestep=None)).thermo)
                            for units in ("micro", "real"))
             np.testing.assert_allclose(real[:6], micro[:6] * factors[0], rtol=1e-9, atol=1e-15)
             np.testing.assert_allclose(real[6:10], micro[6:10] * factors[1], rtol=1e-9, atol=1e-18)
@@ -154,10 +166,11 @@ class InTime(unittest.TestCase):
     def test_plate_velocity_from_a_variable(self):
         for ranks in (1, 2):
             with self.subTest(ranks=ranks):
-                result = run("variable U equal 0.001*sin(time*0.001)\n" + fluid_scene(upper="v_U 0 0", run="run 12"),
-                             ranks)
+                result = run("variable U equal 0.001*sin(time*0.001)\n" +
+                             fluid_scene(upper="v_U 0 0", run="run 12"), ranks)
                 thermo = result.thermo
-                np.testing.assert_allclose(thermo["f_flow[1]"], ETA * 0.001 * np.sin(thermo["Time"] * 0.001) / H,
+                np.testing.assert_allclose(thermo["f_flow[1]"],
+                                           ETA * 0.001 * np.sin(thermo["Time"] * 0.001) / H,
                                            atol=1e-15)
                 np.testing.assert_array_equal(thermo["f_flow[12]"], np.arange(13) + 1)
 
@@ -172,14 +185,15 @@ class InTime(unittest.TestCase):
     def test_an_equal_style_variable_of_the_flow_itself(self):
         # a controller: body force until the mean velocity is what is wanted
         script = ("variable g equal 1e-4*(1+step)\n" + fluid_scene(
-            "v_g 0 0", last="variable ratio equal f_flow[7]/v_g\nthermo_style custom step v_ratio", run="run 5"))
+            "v_g 0 0", last="variable ratio equal f_flow[7]/v_g\nthermo_style custom step v_ratio",
+            run="run 5"))
         ratio = run(script).thermo["v_ratio"]
         np.testing.assert_allclose(ratio, ratio[0], rtol=1e-12)
 
 
 TRACERS = dict(cells="mass 1 1\ncreate_atoms 1 single 1 2 3\ncreate_atoms 1 single 11.9 11.9 6\n"
-                     "create_atoms 1 single 6 6 10.5", thermo="thermo_style custom step f_flow[12]", every="thermo 100",
-               ib="fix ib all rbc/ib flow integrator midpoint")
+                     "create_atoms 1 single 6 6 10.5", thermo="thermo_style custom step f_flow[12]",
+               every="thermo 100", ib="fix ib all rbc/ib flow integrator midpoint")
 
 
 class Tracers(unittest.TestCase):
@@ -190,8 +204,10 @@ class Tracers(unittest.TestCase):
             for integrator, solves in (("euler", 1), ("midpoint", 2)):
                 for ranks in (1, 2):
                     with self.subTest(kernel, integrator=integrator, ranks=ranks):
-                        result = run(fluid_scene(upper="0.003 0.001 0", dump=dump_line(50), run="run 50", **{
-                            **TRACERS, "ib": f"fix ib all rbc/ib flow kernel {kernel} integrator {integrator}"}), ranks)
+                        result = run(fluid_scene(upper="0.003 0.001 0", dump=dump_line(50),
+                                                 run="run 50", **{
+                            **TRACERS, "ib": f"fix ib all rbc/ib flow kernel {kernel} integrator "
+                                             f"{integrator}"}), ranks)
                         dump = result.dump()
                         moved = dump.positions() - dump.positions(0)
                         heights = dump.positions(0)[:, 2]
@@ -204,8 +220,8 @@ class Tracers(unittest.TestCase):
         for steps in (20, 40, 80):
             total = 4000.0
             script = f"variable U equal 0.003*sin(time*{2 * np.pi / total / 0.7})\n" + fluid_scene(
-                upper="v_U 0 0", timestep=f"timestep {total / steps}", dump=dump_line(steps), run=f"run {steps}",
-                **TRACERS)
+                upper="v_U 0 0", timestep=f"timestep {total / steps}", dump=dump_line(steps),
+                run=f"run {steps}", **TRACERS)
             dump = run(script).dump()
             moved = (dump.positions() - dump.positions(0))[:, 0]
             omega = 2 * np.pi / total / 0.7
@@ -218,13 +234,15 @@ class Tracers(unittest.TestCase):
     def test_steady_flow_survives_load_balancing(self):
         for ib in (None, "fix ib all rbc/ib flow"):
             with self.subTest(ib=ib):
-                result = run(fluid_scene(upper="0.003 0 0", dump=grid_dump(1, *VELOCITY), run="run 10", **{
+                result = run(fluid_scene(upper="0.003 0 0", dump=grid_dump(1, *VELOCITY),
+                                         run="run 10", **{
                     **TRACERS, "ib": ib, "last": "fix lb all balance 2 1.0 shift xyz 5 1.0",
-                    "thermo": "thermo_style custom step f_flow[1] f_flow[10]", "every": "thermo 1"}), 4)
+                    "thermo": "thermo_style custom step f_flow[1] f_flow[10]",
+                    "every": "thermo 1"}), 4)
                 np.testing.assert_allclose(result.thermo["f_flow[1]"], ETA * 0.003 / H, rtol=1e-12)
                 for frame in result.dump("grid.dump").frames:
-                    np.testing.assert_allclose(frame[:, 0].reshape(N, 4, 6).mean(axis=(1, 2)), 0.003 * Z / H,
-                                               rtol=1e-10)
+                    np.testing.assert_allclose(frame[:, 0].reshape(N, 4, 6).mean(axis=(1, 2)),
+                                               0.003 * Z / H, rtol=1e-10)
 
 
 class Output(unittest.TestCase):
@@ -233,12 +251,15 @@ class Output(unittest.TestCase):
         from vtkmodules.util.numpy_support import vtk_to_numpy
         for ranks in (1, 4):
             with self.subTest(ranks=ranks):
-                dumps = ("dump u all grid/vtk 5 u.*.vtr " + " ".join(f"f_flow:grid:{name}" for name in VELOCITY) +
+                dumps = ("dump u all grid/vtk 5 u.*.vtr " +
+                         " ".join(f"f_flow:grid:{name}" for name in VELOCITY) +
                          "\ndump p all grid/vtk 10 p.*.vtr f_flow:grid:pressure")
-                result = run(fluid_scene("0 0 1e-3", upper="0.003 0 0", run="run 10", dump=dumps), ranks)
+                result = run(fluid_scene("0 0 1e-3", upper="0.003 0 0", run="run 10", dump=dumps),
+                             ranks)
                 self.assertEqual(sorted(path.name for path in result.folder.glob("*.vtr")),
                                  ["p.0.vtr", "p.10.vtr", "u.0.vtr", "u.10.vtr", "u.5.vtr"])
-                for name, width, expected in (("u", 3, 0.003 * Z / H), ("p", 1, 1e-3 * (Z - H / 2))):
+                for name, width, expected in (("u", 3, 0.003 * Z / H),
+                                              ("p", 1, 1e-3 * (Z - H / 2))):
                     reader = vtkXMLRectilinearGridReader()
                     reader.SetFileName(str(result.path(f"{name}.10.vtr")))
                     reader.Update()
@@ -246,7 +267,8 @@ class Output(unittest.TestCase):
                     self.assertEqual(grid.GetNumberOfCells(), 6 * 4 * N)
                     np.testing.assert_allclose(grid.GetBounds(), (0, 12) * 3)
                     values = vtk_to_numpy(grid.GetCellData().GetArray(0)).reshape(N, 24, width)
-                    np.testing.assert_allclose(values[:, :, 0], np.tile(expected[:, None], 24), rtol=1e-5)
+                    np.testing.assert_allclose(values[:, :, 0], np.tile(expected[:, None], 24),
+                                               rtol=1e-5)
 
     def test_fix_ave_grid(self):
         script = ("variable U equal 0.001*step\n" + fluid_scene(
@@ -258,12 +280,14 @@ class Output(unittest.TestCase):
             with self.subTest(ranks=ranks):
                 dump = run(script, ranks).dump("mean.dump")
                 mean = dump.frames[-1].reshape(N, -1, 2).mean(axis=1)
-                np.testing.assert_allclose(mean[:, 0], 0.001 * 8 * Z / H, rtol=1e-10)    # steps 6 to 10
+                # steps 6 to 10
+                np.testing.assert_allclose(mean[:, 0], 0.001 * 8 * Z / H, rtol=1e-10)
 
     def test_fix_ave_time_and_variables(self):
-        result = run(fluid_scene(upper="0.003 0 0", run="run 4", last="fix out all ave/time 1 2 2 f_flow f_flow[1] "
-                                 "f_flow[12] file out.txt format ' %.17g'\nvariable stress equal f_flow[1]\n"
-                                 "thermo_style custom step v_stress"))
+        result = run(fluid_scene(
+            upper="0.003 0 0", run="run 4", last="fix out all ave/time 1 2 2 f_flow f_flow[1] "
+            "f_flow[12] file out.txt format ' %.17g'\nvariable stress equal f_flow[1]\n"
+            "thermo_style custom step v_stress"))
         rows = np.loadtxt(result.path("out.txt"))
         np.testing.assert_allclose(rows[:, 2], ETA * 0.003 / H, rtol=1e-12)
         np.testing.assert_allclose(result.thermo["v_stress"], ETA * 0.003 / H, rtol=1e-12)
@@ -280,18 +304,21 @@ class Costs(unittest.TestCase):
                              boundary=f"boundary p p {'f' if walls else 'p'}",
                              **{**TRACERS, "before": "variable U equal 1e-3*cos(step/10)",
                                 "thermo": "thermo_style custom step f_flow[12]",
-                                "ib": "fix ib all rbc/ib flow integrator euler" if vertices else None})
+                                "ib": "fix ib all rbc/ib flow integrator euler"
+                                if vertices else None})
         result = run(script, ranks)
-        words = re.search(r"Fluid: (\S+) messages and (\S+) bytes per step and MPI task, (\S+) bytes of memory per "
-                          "cell", result.printed).groups()
+        words = re.search(r"Fluid: (\S+) messages and (\S+) bytes per step and MPI task, (\S+) "
+                          "bytes of memory per cell", result.printed).groups()
         messages, sent, memory = map(float, words)
-        solves = np.ptp(result.thermo["f_flow[12]"])    # of the steps: that of the setup does not count
+        # of the steps: that of the setup does not count
+        solves = np.ptp(result.thermo["f_flow[12]"])
         return messages * steps / solves, sent * steps / solves, memory
 
     def test_one_rank_sends_nothing(self):
         for regime in ("none", "unsteady", "convective"):
             for vertices in (False, True):
-                self.assertEqual(self.cost("inertia " + regime, vertices=vertices)[:2], (0, 0), regime)
+                self.assertEqual(self.cost("inertia " + regime, vertices=vertices)[:2], (0, 0),
+                                 regime)
 
     def test_memory(self):
         for walls in (True, False):
@@ -301,13 +328,15 @@ class Costs(unittest.TestCase):
                     for regime in ("none", "unsteady", "convective", "unsteady scheme projection"))
                 cells = {name: self.cost(f"inertia {name}", vertices=True, walls=walls)[2]
                          for name in ("none", "unsteady", "convective")}
-                print(f"\nbytes per cell: none {none}, unsteady {unsteady}, convective {convective}, projection "
-                      f"{projection}; with vertices {cells}")
+                print(f"\nbytes per cell: none {none}, unsteady {unsteady}, convective "
+                      f"{convective}, projection {projection}; with vertices {cells}")
                 ghosts = 10 * 10 * 18 / (8 * 8 * 16)
                 np.testing.assert_allclose(unsteady - none, 24 * ghosts, rtol=0.01)
                 np.testing.assert_allclose(convective - unsteady, 24, rtol=0.01)
-                (self.assertGreater if walls else self.assertEqual)(projection, unsteady)    # keeps a pressure
-                for name, alone in (("none", none), ("unsteady", unsteady), ("convective", convective)):
+                # keeps a pressure
+                (self.assertGreater if walls else self.assertEqual)(projection, unsteady)
+                for name, alone in (("none", none), ("unsteady", unsteady),
+                                    ("convective", convective)):
                     self.assertGreater(cells[name], alone + 24)
 
     def test_messages_without_vertices(self):
@@ -316,9 +345,11 @@ class Costs(unittest.TestCase):
                 with self.subTest(ranks=ranks, walls=walls):
                     none, unsteady, convective, projection = (
                         self.cost(f"inertia {regime}", ranks, walls=walls)
-                        for regime in ("none", "unsteady", "convective", "unsteady scheme projection"))
+                        for regime in ("none", "unsteady", "convective",
+                                       "unsteady scheme projection"))
                     vertices = self.cost("inertia none", ranks, True, walls)
-                    print(f"\n{ranks} ranks: messages and bytes a solve: none {none[:2]}, unsteady {unsteady[:2]}, "
+                    print(f"\n{ranks} ranks: messages and bytes a solve: none {none[:2]}, unsteady "
+                          f"{unsteady[:2]}, "
                           f"convective {convective[:2]}; with vertices {vertices[:2]}")
                     self.assertGreater(none[0], 0)
                     for other in (unsteady, projection):
@@ -332,9 +363,11 @@ class WithCells(unittest.TestCase):
     def test_divergence_and_balance_of_forces(self):
         for ranks in (1, 2):
             with self.subTest(ranks=ranks):
-                thermo = "thermo_style custom step f_flow[11] " + " ".join(f"f_flow[{n}]" for n in range(1, 7))
+                thermo = "thermo_style custom step f_flow[11] " + " ".join(f"f_flow[{n}]"
+                                                                           for n in range(1, 7))
                 table = run(scene(thermo=thermo, run="run 50"), ranks).thermo
-                print(f"\nlargest divergence with a cell, {ranks} ranks: {table['f_flow[11]'].max():.2g}")
+                print(f"\nlargest divergence with a cell, {ranks} ranks: "
+                      f"{table['f_flow[11]'].max():.2g}")
                 self.assertLess(table["f_flow[11]"].max(), 1e-12)
                 # a membrane exerts no net force: what one plate gets the other gives
                 for low, high in ((1, 4), (2, 5), (3, 6)):
@@ -345,9 +378,10 @@ class WithCells(unittest.TestCase):
         # wherever the fix that makes it comes in the script
         results = []
         for place in ("before", "last"):
-            result = run(scene(**{place: "fix push all addforce 1e-4 2e-4 -3e-4"}, run="run 5", every="thermo 5",
-                               dump=dump_line(5),
-                               thermo="thermo_style custom step " + " ".join(f"f_flow[{n}]" for n in range(1, 7))))
+            result = run(scene(
+                **{place: "fix push all addforce 1e-4 2e-4 -3e-4"}, run="run 5", every="thermo 5",
+                dump=dump_line(5),
+                thermo="thermo_style custom step " + " ".join(f"f_flow[{n}]" for n in range(1, 7))))
             for d, force in enumerate((1e-4, 2e-4, -3e-4)):
                 total = (result.thermo[f"f_flow[{d + 1}]"] + result.thermo[f"f_flow[{d + 4}]"])[-1]
                 np.testing.assert_allclose(total, 162 * force / 144, rtol=1e-9)

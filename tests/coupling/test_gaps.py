@@ -1,10 +1,12 @@
-"""fix rbc/ib gaps: surfaces nearer than the grid's cells slide as the fluid between them lets them."""
+"""fix rbc/ib gaps: surfaces nearer than the grid's cells slide as the fluid between them lets
+them."""
 
 import unittest
 
 import numpy as np
 
-from lammps_case import POTENTIALS, SHEAR, attempt, dump_line, in_parallel, push, read_template, run, scene
+from lammps_case import (POTENTIALS, SHEAR, attempt, dump_line, in_parallel, push, read_template,
+                         run, scene)
 
 DX, VISCOSITY = 1.0, 1.5
 SEEN = "pair_style rbc/jkr 0.5\npair_coeff * * none"
@@ -21,8 +23,8 @@ def weights(r):
 
 
 def missing_slide(gaps):
-    """In cells: what two sheets of opposite unit tractions slide too little, in the mean over all directions, as the
-    theory page has it."""
+    """In cells: what two sheets of opposite unit tractions slide too little, in the mean over all
+    directions, as the theory page has it."""
     second, fourth = 0.30, 0.2065
     k, r = (np.arange(2500) + 0.5) * 0.01, (np.arange(3000) + 0.5) * 1e-3 - 1.5
     transform = np.cos(np.outer(k, r)) @ weights(r) * 1e-3
@@ -43,8 +45,8 @@ def range_and_missing(gaps):
 
 
 def closest_points(points, corners):
-    """Weights of the corners at the point of triangles (triangle, corner, coordinate) closest to each point, which
-    triangle that is, and where."""
+    """Weights of the corners at the point of triangles (triangle, corner, coordinate) closest to
+    each point, which triangle that is, and where."""
     best = np.full(len(points), np.inf)
     triangle, shares = np.zeros(len(points), int), np.zeros((len(points), 3))
     for t, (a, b, c) in enumerate(corners):
@@ -64,7 +66,8 @@ def closest_points(points, corners):
 
 
 def mixed_areas():
-    """Each vertex' share of the area, cut at circumcentres, or at the middle of the longest edge of obtuse triangles."""
+    """Each vertex' share of the area, cut at circumcentres, or at the middle of the longest edge of
+    obtuse triangles."""
     areas = np.zeros(COUNT)
     for corner in TRIANGLES:
         x = VERTICES[corner]
@@ -75,22 +78,27 @@ def mixed_areas():
             if min(dots) < 0:
                 share = area / (2 if dots[c] < 0 else 4)
             else:
-                share = (np.sum((x[p] - x[c])**2) * dots[q] + np.sum((x[q] - x[c])**2) * dots[p]) / (16 * area)
+                share = ((np.sum((x[p] - x[c])**2) * dots[q] + np.sum((x[q] - x[c])**2) * dots[p]) /
+                         (16 * area))
             areas[corner[c]] += share
     return areas
 
 
-def velocities(forces, gaps="yes", ranks=1, newton="newton on", kernel="roma3", pair=SEEN, plates=False,
-               shift=0.0):
+def velocities(forces, gaps="yes", ranks=1, newton="newton on", kernel="roma3", pair=SEEN,
+               plates=False, shift=0.0):
     """Of all vertices of two stacked cells whose membranes exert no forces."""
     cells = "\n".join(f"rbc/create rbc single {x} {y} {z + shift}" for x, y, z in CENTRES)
     before, files = push(forces)
     boundary, walls = ("p p f", " wall zlo 0 0 0 wall zhi 0 0 0") if plates else ("p p p", "")
     result = run(scene(newton=newton, boundary=f"boundary {boundary}", cells=cells,
-                       membrane="fix mem all rbc/membrane rbc neo-hookean 1e-30 volume no", before=f"{pair}\n{before}",
-                       fluid=f"fix flow all rbc/fluid dx {DX} viscosity {VISCOSITY} density 1.025" + walls,
-                       ib=f"fix ib all rbc/ib flow kernel {kernel} integrator midpoint gaps {gaps}", thermo="",
-                       timestep="timestep 1e-3", dump=dump_line(1, columns="id xu yu zu vx vy vz")), ranks, files=files)
+                       membrane="fix mem all rbc/membrane rbc neo-hookean 1e-30 volume no",
+                       before=f"{pair}\n{before}",
+                       fluid=f"fix flow all rbc/fluid dx {DX} viscosity {VISCOSITY} density 1.025" +
+                       walls,
+                       ib=f"fix ib all rbc/ib flow kernel {kernel} integrator midpoint gaps {gaps}",
+                       thermo="",
+                       timestep="timestep 1e-3", dump=dump_line(1, columns="id xu yu zu vx vy vz")),
+                 ranks, files=files)
     return result.dump()("vx", "vy", "vz")
 
 
@@ -130,7 +138,8 @@ class BetweenCells(unittest.TestCase):
             with self.subTest(kernel):
                 f, g = random_forces(2), random_forces(3)
                 by_f, by_g, plain = in_parallel(
-                    velocities, [(f, "yes", 1, "", kernel), (g, "yes", 1, "", kernel), (f, "no", 1, "", kernel)])
+                    velocities, [(f, "yes", 1, "", kernel), (g, "yes", 1, "", kernel),
+                                 (f, "no", 1, "", kernel)])
                 scale = abs(f * by_f).sum()
                 self.assertLess(abs((g * by_f).sum() - (f * by_g).sum()) / scale, 1e-12)
                 self.assertGreater((f * (by_f - plain)).sum(), 0.001 * scale)
@@ -138,14 +147,17 @@ class BetweenCells(unittest.TestCase):
     def test_ranks_and_newton(self):
         forces = random_forces(4)
         layouts = [(1, "newton on"), (2, "newton on"), (4, "newton off"), (3, "newton on")]
-        one, *others = in_parallel(lambda ranks, newton: velocities(forces, "yes", ranks, newton), layouts)
+        one, *others = in_parallel(lambda ranks, newton: velocities(forces, "yes", ranks, newton),
+                                   layouts)
         for layout, other in zip(layouts[1:], others):
             self.assertLess(abs(other - one).max() / abs(one).max(), 1e-12, layout)
 
     def test_nothing_that_could_be_seen(self):
-        asked = dict(boundary="boundary p p p", fluid="fix flow all rbc/fluid dx 1 viscosity 1 density 1",
+        asked = dict(boundary="boundary p p p",
+                     fluid="fix flow all rbc/fluid dx 1 viscosity 1 density 1",
                      ib=SHEAR["ib"] + " gaps yes")
-        self.assertIn("gaps yes has no effect: there is no pair_style rbc/jkr", run(scene(**asked)).printed)
+        self.assertIn("gaps yes has no effect: there is no pair_style rbc/jkr",
+                      run(scene(**asked)).printed)
         points = attempt(scene(**asked, membrane=None, thermo=None))
         self.assertIn("Fix rbc/ib ib gaps yes needs a fix rbc/membrane", points.error)
 
@@ -160,8 +172,10 @@ class BetweenCells(unittest.TestCase):
         forces = random_forces(9)
         styles = ("rbc/jkr 1.5 self yes", "rbc/jkr 1.5")
         pairs = [f"pair_style hybrid/overlay {' '.join(order)}\npair_coeff * * rbc/jkr 1 none\n"
-                 "pair_coeff * * rbc/jkr 2 none" for order in (styles, styles[::-1], styles[1:] * 2)]
-        first, second, neither = in_parallel(lambda pair: velocities(forces, pair=pair), [(pair,) for pair in pairs])
+                 "pair_coeff * * rbc/jkr 2 none"
+                 for order in (styles, styles[::-1], styles[1:] * 2)]
+        first, second, neither = in_parallel(lambda pair: velocities(forces, pair=pair),
+                                             [(pair,) for pair in pairs])
         self.assertLess(abs(second - first).max() / abs(first).max(), 1e-14)
         self.assertGreater(abs(neither - first).max() / abs(first).max(), 1e-3)
 
@@ -174,13 +188,14 @@ class BetweenCells(unittest.TestCase):
     def test_without_the_pair_style_cells_are_not_seen(self):
         forces = random_forces(5)
         pair = "pair_style zero 3\npair_coeff * *"
-        blind, plain = in_parallel(lambda gaps, lines: velocities(forces, gaps, pair=lines), [("yes", ""), ("no", pair)])
+        blind, plain = in_parallel(lambda gaps, lines: velocities(forces, gaps, pair=lines),
+                                   [("yes", ""), ("no", pair)])
         self.assertLess(abs(blind - plain).max() / abs(plain).max(), 1e-14)
 
 
 def missing_at_plate(gap):
-    """In cells: what a sheet of unit traction beside a plate moves too little. Points of the grid are half a cell from
-    the plate and one apart; beyond it the flow is its odd reflection."""
+    """In cells: what a sheet of unit traction beside a plate moves too little. Points of the grid
+    are half a cell from the plate and one apart; beyond it the flow is its odd reflection."""
     second, fourth = 0.30, 0.2065
     z = np.arange(12) + 0.5
     force = weights(gap - z) - weights(gap + z)
@@ -193,7 +208,8 @@ class BesidePlates(unittest.TestCase):
     def test_vertices_near_a_plate_move_further_along_it(self):
         # the lower cell's rim is 0.15 to 0.3 cells from the plate
         forces, shift = random_forces(6), 0.2 - (CENTRES[0, 2] + VERTICES[:, 2].min())
-        more, less = in_parallel(lambda gaps: velocities(forces, gaps, pair="", plates=True, shift=shift), [("yes",), ("no",)])
+        more, less = in_parallel(lambda gaps: velocities(forces, gaps, pair="", plates=True,
+                                                         shift=shift), [("yes",), ("no",)])
         added = more - less
         heights = np.concatenate([VERTICES + centre for centre in CENTRES])[:, 2] + shift
         near = heights < 0.5
@@ -203,10 +219,12 @@ class BesidePlates(unittest.TestCase):
         self.assertGreater(mobility.min(), 0)
         np.testing.assert_allclose(mobility[:, 0], mobility[:, 1], rtol=1e-6)
         expected = np.array([missing_at_plate(height) for height in heights[near] / DX]) * DX
-        np.testing.assert_allclose(mobility[:, 0], expected, atol=0.006)    # that of the range, 3 % of it, is taken off
+        # that of the range, 3 % of it, is taken off
+        np.testing.assert_allclose(mobility[:, 0], expected, atol=0.006)
         self.assertEqual(abs(added[:, 2]).max(), 0)
         self.assertEqual(abs(added[heights > 1]).max(), 0)
-        print(f"\nnear a plate: what is added is at most {mobility.max():.3f} um times traction over viscosity")
+        print(f"\nnear a plate: what is added is at most {mobility.max():.3f} um times traction "
+              "over viscosity")
 
 
 if __name__ == "__main__":

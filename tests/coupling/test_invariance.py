@@ -1,5 +1,5 @@
-"""The result depends neither on the ranks and their parts of the box, nor on newton, nor on the product, nor on where
-in a periodic box the cells are."""
+"""The result depends neither on the ranks and their parts of the box, nor on newton, nor on the
+product, nor on where in a periodic box the cells are."""
 
 import unittest
 
@@ -13,7 +13,8 @@ STEPS = 1000        # strain 20
 
 # Whatever halves the box, and eighths in x and z, go through this cell.
 CELL = dict(cells="rbc/create rbc single 5.3 6.4 6.2 rotate 30 1 0.5 0",
-            fluid=SHEAR["fluid"].replace("dx 1.0", "dx 0.75"), thermo="thermo_style custom step f_mem f_flow[11]",
+            fluid=SHEAR["fluid"].replace("dx 1.0", "dx 0.75"),
+            thermo="thermo_style custom step f_mem f_flow[11]",
             every="thermo 100", dump=dump_line(STEPS), run=f"run {STEPS}")
 
 WAYS = {
@@ -24,12 +25,16 @@ WAYS = {
     "8 ranks in z": (8, dict(processors="processors 1 1 8")),
     "8 ranks, 2 x 2 x 2, newton off": (8, dict(processors="processors 2 2 2", newton="newton off")),
     "1 rank, newton off": (1, dict(newton="newton off")),
-    "4 ranks, uneven bricks": (4, dict(processors="processors 2 1 2", last="balance 1.0 x 0.3 z 0.6")),
-    "4 ranks, balance shift": (4, dict(processors="processors 2 2 1", last="balance 1.0 shift xy 10 1.01")),
+    "4 ranks, uneven bricks": (4,
+                               dict(processors="processors 2 1 2", last="balance 1.0 x 0.3 z 0.6")),
+    "4 ranks, balance shift": (4, dict(processors="processors 2 2 1",
+                                       last="balance 1.0 shift xy 10 1.01")),
     "4 ranks, fix balance": (4,
-                             dict(processors="processors 1 2 2", last="fix lb all balance 100 1.0 shift yz 10 1.01")),
+                             dict(processors="processors 1 2 2",
+                                  last="fix lb all balance 100 1.0 shift yz 10 1.01")),
     "4 ranks, rcb": (4, dict(processors="comm_style tiled", last="balance 1.0 rcb")),
-    "4 ranks, fix balance rcb": (4, dict(processors="comm_style tiled", last="fix lb all balance 100 1.0 rcb")),
+    "4 ranks, fix balance rcb": (4, dict(processors="comm_style tiled",
+                                         last="fix lb all balance 100 1.0 rcb")),
 }
 
 
@@ -43,8 +48,8 @@ class Ranks(unittest.TestCase):
         print(f"\n{name}: {apart:.2g} diameters from 1 rank after {STEPS} steps")
         self.assertLess(apart, TOLERANCE)
         self.assertLess(result.thermo["f_flow[11]"].max(), 1e-12)
-        np.testing.assert_allclose(result.thermo["f_mem"], self.reference.thermo["f_mem"], rtol=1e-6,
-                                   atol=1e-8 * self.reference.thermo["f_mem"].max())
+        np.testing.assert_allclose(result.thermo["f_mem"], self.reference.thermo["f_mem"],
+                                   rtol=1e-6, atol=1e-8 * self.reference.thermo["f_mem"].max())
 
     def test_cell_moved(self):
         dump = self.reference.dump()
@@ -61,7 +66,8 @@ class Ranks(unittest.TestCase):
             ends = []
             for ranks in (1, 8):
                 fluid = "fix flow all rbc/fluid grid 4 4 4 viscosity 1.5 density 1.025" + walls
-                result = run(scene(boundary=f"boundary {boundary}", fluid=fluid, dump=dump_line(50), run="run 50",
+                result = run(scene(boundary=f"boundary {boundary}", fluid=fluid, dump=dump_line(50),
+                                   run="run 50",
                                    last="displace_atoms all random 0.05 0.05 0.05 3"), ranks)
                 self.assertLess(result.thermo["f_flow[11]"].max(), 1e-12)
                 ends.append(result.dump().positions())
@@ -73,13 +79,15 @@ class Ranks(unittest.TestCase):
                 result = run(scene(**CELL), ranks, plugin=True)
                 self.agree(f"plugin, {ranks} ranks", result)
                 if ranks == 1:
-                    np.testing.assert_array_equal(result.dump().positions(), self.reference.dump().positions())
+                    np.testing.assert_array_equal(result.dump().positions(),
+                                                  self.reference.dump().positions())
 
 
 class Places(unittest.TestCase):
     """Translations by whole cells of the grid change nothing, faces or not."""
 
-    SHIFTS = [(0, 0, 0), (8, 0, 0), (0, 8, 0), (0, 0, 8), (8, 8, 0), (8, 0, 8), (0, 8, 8), (8, 8, 8), (-5, 3, 6),
+    SHIFTS = [(0, 0, 0), (8, 0, 0), (0, 8, 0), (0, 0, 8), (8, 8, 0), (8, 0, 8), (0, 8, 8),
+              (8, 8, 8), (-5, 3, 6),
               (16 * 3 + 7, -16 * 2, -9)]
     DEFORM = ("variable x atom {0[0]}+1.15*(x-{0[0]})\nvariable y atom {0[1]}+0.9*(y-{0[1]})\n"
               "set group all x v_x y v_y")
@@ -90,9 +98,10 @@ class Places(unittest.TestCase):
         move = " ".join(str(0.75 * n) for n in shift)
         result = run(scene(boundary="boundary p p p",
                            fluid="fix flow all rbc/fluid dx 0.75 viscosity 1.5 density 1.025",
-                           cells="rbc/create rbc single 6 6 6 rotate 30 1 0.5 0", run="run 100", dump=dump_line(100),
-                           every="thermo 50",
-                           last=self.DEFORM.format(centre) + f"\ndisplace_atoms all move {move}"), ranks)
+                           cells="rbc/create rbc single 6 6 6 rotate 30 1 0.5 0", run="run 100",
+                           dump=dump_line(100), every="thermo 50",
+                           last=self.DEFORM.format(centre) + f"\ndisplace_atoms all move {move}"),
+                     ranks)
         dump = result.dump()
         self.assertLess(result.thermo["f_flow[11]"].max(), 1e-12)
         return dump.positions() - 0.75 * np.array(shift), dump.positions(0) - 0.75 * np.array(shift)
@@ -107,14 +116,16 @@ class Places(unittest.TestCase):
                     apart = abs(self.periodic(shift, ranks)[0] - reference).max() / DIAMETER
                     worst = max(worst, apart)
                     self.assertLess(apart, TOLERANCE)
-        print(f"\nacross faces, edges and corners: at most {worst:.2g} diameters from the cell in the middle")
+        print(f"\nacross faces, edges and corners: at most {worst:.2g} diameters from the cell in "
+              "the middle")
 
     def carried(self, cells, ranks, steps, lower, upper):
         walls = f" wall zlo {lower[0]} {lower[1]} 0 wall zhi {upper[0]} {upper[1]} 0"
-        dump = run(scene(cells=f"rbc/create rbc single {' '.join(map(str, cells))} rotate 30 1 0.5 0",
-                         fluid="fix flow all rbc/fluid dx 0.75 viscosity 1.5 density 1.025" + walls,
-                         thermo="thermo_style custom step f_mem f_flow[11]", every="thermo 100",
-                         timestep="timestep 100", dump=dump_line(steps), run=f"run {steps}"), ranks).dump()
+        dump = run(
+            scene(cells=f"rbc/create rbc single {' '.join(map(str, cells))} rotate 30 1 0.5 0",
+                  fluid="fix flow all rbc/fluid dx 0.75 viscosity 1.5 density 1.025" + walls,
+                  thermo="thermo_style custom step f_mem f_flow[11]", every="thermo 100",
+                  timestep="timestep 100", dump=dump_line(steps), run=f"run {steps}"), ranks).dump()
         return dump.positions(0), dump.positions()
 
     def test_carried_ten_times_through_the_faces(self):
@@ -123,8 +134,10 @@ class Places(unittest.TestCase):
         for ranks in (1, 4):
             with self.subTest(ranks=ranks):
                 start, end = self.carried((6, 6, 6), ranks, steps, (speed, -speed), (speed, -speed))
-                apart = abs(end - start - speed * 100 * steps * np.array([1, -1, 0])).max() / DIAMETER
-                print(f"\ncarried ten times through the box, {ranks} ranks: shape changes by {apart:.2g} diameters")
+                apart = (abs(end - start - speed * 100 * steps * np.array([1, -1, 0])).max() /
+                         DIAMETER)
+                print(f"\ncarried ten times through the box, {ranks} ranks: shape changes by "
+                      f"{apart:.2g} diameters")
                 self.assertLess(apart, TOLERANCE)
 
     def test_sheared_while_carried(self):
@@ -138,7 +151,8 @@ class Places(unittest.TestCase):
                 move = 0.75 * np.array(shift)
                 _, end = self.carried(6 + move, ranks, steps, lower, upper)
                 apart = abs(end - move - reference).max() / DIAMETER
-                print(f"\nsheared and carried, {shift} cells apart, {ranks} ranks: {apart:.2g} diameters")
+                print(f"\nsheared and carried, {shift} cells apart, {ranks} ranks: {apart:.2g} "
+                      "diameters")
                 self.assertLess(apart, TOLERANCE)
 
 

@@ -23,7 +23,8 @@ class Pieces(unittest.TestCase):
         if exact:
             np.testing.assert_array_equal(a.positions(), b.positions())
             np.testing.assert_array_equal(a.forces(), b.forces())
-            self.assertEqual([c[-1] for c in whole.thermo.values()], [c[-1] for c in pieces.thermo.values()])
+            self.assertEqual([c[-1] for c in whole.thermo.values()],
+                             [c[-1] for c in pieces.thermo.values()])
         else:
             self.assertLess(apart, 1e-12)
 
@@ -31,7 +32,8 @@ class Pieces(unittest.TestCase):
         for every_step, exact in (("", False), ("\nneigh_modify every 1 delay 0 check no", True)):
             for ranks in (1, 2):
                 with self.subTest(every_step, ranks=ranks):
-                    self.compare("run 50\nrun 50", ranks, exact, neighbor=SHEAR["neighbor"] + every_step)
+                    self.compare("run 50\nrun 50", ranks, exact,
+                                 neighbor=SHEAR["neighbor"] + every_step)
 
     def test_without_a_second_setup(self):
         for ranks in (1, 2):
@@ -47,7 +49,8 @@ class Pieces(unittest.TestCase):
         # without and with the forces of a fix that comes after fix rbc/ib
         for last in ("", "fix push all addforce 1e-5 0 2e-5"):
             with self.subTest(last):
-                self.compare("run 50\nrun 50", 1, True, before="variable U equal 0.0012*cos(step/10)",
+                self.compare("run 50\nrun 50", 1, True,
+                             before="variable U equal 0.0012*cos(step/10)",
                              fluid=SHEAR["fluid"].replace("0.0012", "v_U"), last=last,
                              neighbor=SHEAR["neighbor"] + "\nneigh_modify every 1 delay 0 check no")
 
@@ -59,31 +62,36 @@ class Pieces(unittest.TestCase):
 class Again(unittest.TestCase):
     def test_after_clear(self):
         one = scene(**TABLE, dump=dump_line(20), run="run 20")
-        other = one.replace("rotate 30", "rotate 70").replace("atoms.dump", "other.dump").replace("dx 1.0", "dx 0.8")
+        other = (one.replace("rotate 30", "rotate 70").replace("atoms.dump", "other.dump")
+                 .replace("dx 1.0", "dx 0.8"))
         for plugin in (False, True):
             for ranks in (1, 2):
                 with self.subTest(plugin=plugin, ranks=ranks):
                     load = f"plugin load {os.environ['RBC_PLUGIN']}\n" if plugin else ""
                     result = run(one + "clear\n" + load + other + "clear\n" + load +
                                  one.replace("atoms.dump", "again.dump"), ranks, plugin=plugin)
-                    np.testing.assert_array_equal(result.dump().positions(), result.dump("again.dump").positions())
+                    np.testing.assert_array_equal(result.dump().positions(),
+                                                  result.dump("again.dump").positions())
                     first, _, again = result.tables()
                     for column in first:
                         np.testing.assert_array_equal(first[column], again[column])
-                    self.assertGreater(abs(result.dump().positions() - result.dump("other.dump").positions()).max(),
+                    self.assertGreater(abs(result.dump().positions() -
+                                           result.dump("other.dump").positions()).max(),
                                        0.1)
 
     def test_fixes_replaced_between_runs(self):
         # a stiffer membrane, another grid and another kernel take over where the first left off
-        more = "\n".join(["unfix ib", "unfix flow", "unfix mem", SHEAR["membrane"].replace("0.257", "0.5"),
-                          SHEAR["fluid"].replace("dx 1.0", "dx 0.75"), SHEAR["ib"].replace("peskin4",
-                                                                                           "roma3"), "run 20"])
+        more = "\n".join(
+            ["unfix ib", "unfix flow", "unfix mem", SHEAR["membrane"].replace("0.257", "0.5"),
+             SHEAR["fluid"].replace("dx 1.0", "dx 0.75"), SHEAR["ib"].replace("peskin4",
+                                                                              "roma3"), "run 20"])
         for ranks in (1, 2):
             with self.subTest(ranks=ranks):
                 result = run(scene(**TABLE, run="run 20\n" + more), ranks)
                 first, second = result.tables()
                 self.assertGreater(second["f_mem"][0], 1.5 * first["f_mem"][-1])
-                np.testing.assert_allclose(second["c_cell[1][6]"], first["c_cell[1][6]"][0], rtol=1e-4)
+                np.testing.assert_allclose(second["c_cell[1][6]"], first["c_cell[1][6]"][0],
+                                           rtol=1e-4)
 
 
 class Files(unittest.TestCase):
@@ -94,7 +102,8 @@ class Files(unittest.TestCase):
         whole = run(scene(**TABLE, dump=dump_line(100), run="run 100")).dump()
         for name, save, load in (
                 ("restart", "write_restart half.restart", "read_restart half.restart"),
-                ("data", "write_data half.data nocoeff", "boundary p p f\nread_data half.data\nreset_timestep 50")):
+                ("data", "write_data half.data nocoeff",
+                 "boundary p p f\nread_data half.data\nreset_timestep 50")):
             for ranks in (1, 2):
                 with self.subTest(name, ranks=ranks):
                     lines = dict(head, processors=load, dump=dump_line(100), run="run 50")
@@ -106,23 +115,27 @@ class Files(unittest.TestCase):
                     self.assertEqual(dump.steps[-1], 100)
                     np.testing.assert_array_equal(dump("mol"), 1)
                     apart = abs(dump.positions() - whole.positions()).max() / DIAMETER
-                    print(f"\ncontinued from a {name} file, {ranks} ranks: {apart:.2g} diameters from one run")
+                    print(f"\ncontinued from a {name} file, {ranks} ranks: {apart:.2g} diameters "
+                          "from one run")
                     self.assertLess(apart, 1e-12)
 
     def test_cells_replicated(self):
         result = run(scene(**{**TABLE, "thermo": TABLE["thermo"] + " c_cell[4][1] c_cell[4][6]"},
-                           cells="rbc/create rbc single 6 6 6 rotate 30 1 0 0\nreplicate 2 2 1", run="run 10"), 2)
+                           cells="rbc/create rbc single 6 6 6 rotate 30 1 0 0\nreplicate 2 2 1",
+                           run="run 10"), 2)
         self.assertEqual(result.thermo["c_cell[4][1]"][-1], 4)
-        np.testing.assert_allclose(result.thermo["c_cell[4][6]"], result.thermo["c_cell[1][6]"], rtol=1e-12)
+        np.testing.assert_allclose(result.thermo["c_cell[4][6]"], result.thermo["c_cell[1][6]"],
+                                   rtol=1e-12)
 
     def test_cells_deleted_whole(self):
         # with IDs closed up or not
         for words in ("compress yes", "compress no", "compress yes mol yes"):
             with self.subTest(words):
-                result = run(scene(box="region box block 0 30 0 12 0 12", cells="rbc/create rbc single 5 6 6\n"
-                                   "rbc/create rbc single 15 6 6\nrbc/create rbc single 25 6 6",
-                                   last=f"group out molecule 2\ndelete_atoms group out {words}", dump=dump_line(5),
-                                   run="run 5"))
+                result = run(scene(
+                    box="region box block 0 30 0 12 0 12", cells="rbc/create rbc single 5 6 6\n"
+                    "rbc/create rbc single 15 6 6\nrbc/create rbc single 25 6 6",
+                    last=f"group out molecule 2\ndelete_atoms group out {words}", dump=dump_line(5),
+                    run="run 5"))
                 self.assertEqual(len(result.dump()("id")), 324)
 
 

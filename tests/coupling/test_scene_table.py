@@ -12,8 +12,8 @@ PLATES = SHEAR["fluid"].replace("dx 1.0", "dx 1.2")
 TWO = {"box": "region box block 0 24 0 12 0 12",
        "cells": "rbc/create rbc single 6 6 6\nrbc/create rbc single 18 6 6"}
 CONTACT = "pair_style rbc/jkr {0}\npair_coeff * * repulsive 0.5 {0}"
-WITHOUT_CELLS = {"molecule": None, "cells": "create_atoms 1 single 6 6 6\nmass 1 1", "membrane": None,
-                 "compute": None, "thermo": "thermo_style custom step f_flow[11]"}
+WITHOUT_CELLS = {"molecule": None, "cells": "create_atoms 1 single 6 6 6\nmass 1 1",
+                 "membrane": None, "compute": None, "thermo": "thermo_style custom step f_flow[11]"}
 REPELLED = "fix plates all wall/harmonic zlo EDGE 0.02 1.0 0.5 zhi EDGE 0.02 1.0 0.5"
 
 
@@ -23,7 +23,8 @@ def warnings(result):
 
 def rows(result):
     """The numbers of each kind of cell, by the ID of its fix."""
-    table = re.search(r"^USER-RBC scene: .*\n.*\n.*in fluid spacings\n((?:.*\|.*\n)+)", result.printed, re.MULTILINE)
+    table = re.search(r"^USER-RBC scene: .*\n.*\n.*in fluid spacings\n((?:.*\|.*\n)+)",
+                      result.printed, re.MULTILINE)
     found = {}
     for line in table.group(1).splitlines():
         name, *numbers = line.replace("|", " ").split()
@@ -46,22 +47,27 @@ class Numbers(unittest.TestCase):
         expected_mean, expected_longest, volume = edges_and_volume("rbc_162.mol")
         self.assertEqual(number, 1)
         self.assertEqual(contact, 0)
-        np.testing.assert_allclose([mean, longest], [expected_mean / 1.2, expected_longest / 1.2], rtol=5e-3)
+        np.testing.assert_allclose([mean, longest], [expected_mean / 1.2, expected_longest / 1.2],
+                                   rtol=5e-3)
         radius = (0.75 / np.pi * volume)**(1 / 3)
-        np.testing.assert_allclose(capillary, 1.5 * 0.0012 / 12 * radius / (2 * (0.257 + 0.0257) * 0.01), rtol=5e-3)
+        np.testing.assert_allclose(
+            capillary, 1.5 * 0.0012 / 12 * radius / (2 * (0.257 + 0.0257) * 0.01), rtol=5e-3)
         # half a skin, a cell in a step, kernel, differences of sheets
-        self.assertRegex(result.printed, r"scene: 10 x 10 x 10 fluid cells, spacing 1.2, neighbor skin 1 spacings, "
+        self.assertRegex(result.printed,
+                         r"scene: 10 x 10 x 10 fluid cells, spacing 1.2, neighbor skin 1 spacings, "
                          rf"{int(np.ceil(0.5 + 1)) + 2 + 2} ghost layers")
-        self.assertIn("Plates: shear rate 0.0001; no fix wall repels cells from them", result.printed)
+        self.assertIn("Plates: shear rate 0.0001; no fix wall repels cells from them",
+                      result.printed)
         self.assertEqual(warnings(result), [])
 
     def test_in_other_units(self):
         """In units real forces are not masses times accelerations."""
-        fluid = PLATES.replace("dx 1.2", "dx 1.2e4").replace("viscosity 1.5", "viscosity 9.033e-4") \
-            .replace("density 1.025", "density 6.17e-13").replace("0.0012", "1.2e-8")
+        fluid = (PLATES.replace("dx 1.2", "dx 1.2e4").replace("viscosity 1.5", "viscosity 9.033e-4")
+                 .replace("density 1.025", "density 6.17e-13").replace("0.0012", "1.2e-8"))
         result = run(scene(units="units real", box="region box block 0 12e4 0 12e4 0 12e4",
                            molecule=f"molecule rbc {POTENTIALS}/rbc_162.mol scale 1e4",
-                           cells="rbc/create rbc single 6e4 6e4 6e4", neighbor="neighbor 1e4 bin", fluid=fluid,
+                           cells="rbc/create rbc single 6e4 6e4 6e4", neighbor="neighbor 1e4 bin",
+                           fluid=fluid,
                            membrane="fix mem all rbc/membrane rbc skalak 1e-9 1 bending 1e-4",
                            timestep="timestep 1e-3"))
         _, _, volume = edges_and_volume("rbc_162.mol")
@@ -75,7 +81,8 @@ class Numbers(unittest.TestCase):
         self.assertLessEqual(rows(result)["mem"][3], 6)
 
     def test_contact_range(self):
-        # the range of repulsive tips is their radius; of other pair styles between vertices their cutoff
+        # the range of repulsive tips is their radius; of other pair styles between vertices their
+        # cutoff
         contacts = (CONTACT.format(1.3), "pair_style lj/cut 0.9\npair_coeff * * 0 0.5")
         results = in_parallel(lambda contact: run(scene(**TWO, before=contact, last=REPELLED)),
                               [(contact,) for contact in contacts])
@@ -87,7 +94,8 @@ class Numbers(unittest.TestCase):
         region = "region middle block INF INF INF INF 1 11 units box\n"
         styles = {"plates yes": "pair rbc/jkr plates", "walls middle": "pair rbc/jkr walls middle",
                   "plates yes walls middle": "pair rbc/jkr plates, walls middle", "plates no": ""}
-        results = in_parallel(lambda words: run(scene(**TWO, before=region + CONTACT.format(1.3).replace(
+        results = in_parallel(
+            lambda words: run(scene(**TWO, before=region + CONTACT.format(1.3).replace(
             "1.3\n", f"1.3 {words}\n"))), [(words,) for words in styles])
         for repelling, result in zip(styles.values(), results):
             with self.subTest(repelling):
@@ -96,7 +104,8 @@ class Numbers(unittest.TestCase):
                     self.assertEqual(warnings(result), [])
                 else:
                     self.assertIn("no fix wall repels cells from them", result.printed)
-                    self.assertRegex(warnings(result)[0], "nothing repels the 2 cells from the plates; use plates yes")
+                    self.assertRegex(warnings(result)[0],
+                                     "nothing repels the 2 cells from the plates; use plates yes")
 
     def test_fastest_wall(self):
         ball = "region ball sphere 2 2 2 1.5\nrbc/surface ball type 2 spacing 0.9 mass 1\n" \
@@ -109,43 +118,55 @@ class Numbers(unittest.TestCase):
                            ib=SHEAR["ib"].replace("all", "cells")))
         _, _, volume = edges_and_volume("rbc_162.mol")
         radius = (0.75 / np.pi * volume)**(1 / 3)
-        np.testing.assert_allclose(rows(result)["mem"][5], 1.5 * 5e-4 / 6 * radius / 0.005654, rtol=5e-3)
-        self.assertIn("Walls: fix rbc/wall ball; no fix wall repels cells from them", result.printed)
+        np.testing.assert_allclose(rows(result)["mem"][5], 1.5 * 5e-4 / 6 * radius / 0.005654,
+                                   rtol=5e-3)
+        self.assertIn("Walls: fix rbc/wall ball; no fix wall repels cells from them",
+                      result.printed)
 
     def test_timestep_times_spectral_radius(self):
         result = run(scene(ib="fix ib all rbc/ib flow integrator rkc auto",
                            thermo="thermo_style custom step f_ib[6] f_ib[9]", run="run 4"))
-        product = float(re.search(r"^Timestep times spectral radius: (.*)$", result.printed, re.MULTILINE).group(1))
-        np.testing.assert_allclose(product, result.thermo["f_ib[6]"][-1] * result.thermo["f_ib[9]"][-1], rtol=1e-3)
+        product = float(re.search(r"^Timestep times spectral radius: (.*)$", result.printed,
+                                  re.MULTILINE).group(1))
+        np.testing.assert_allclose(
+            product, result.thermo["f_ib[6]"][-1] * result.thermo["f_ib[9]"][-1], rtol=1e-3)
 
 
 class Warnings(unittest.TestCase):
     def test_what_is_out_of_range(self):
-        other = SHEAR["membrane"].replace("fix mem all", "fix stiff two").replace("0.257 0.0257", "2.57 0.257")
+        other = SHEAR["membrane"].replace("fix mem all", "fix stiff two").replace("0.257 0.0257",
+                                                                                  "2.57 0.257")
         mean = edges_and_volume("rbc_162.mol")[0]
         cases = {
-            "no contact": (dict(TWO), ["nothing keeps the 2 cells of fix rbc/membrane mem from passing",
-                                       "nothing repels the 2 cells from the plates"]),
+            "no contact": (dict(TWO),
+                           ["nothing keeps the 2 cells of fix rbc/membrane mem from passing",
+                            "nothing repels the 2 cells from the plates"]),
             "not of both kinds": (
-                dict(TWO, create_box="create_box 2 box angle/types 1", before="mass 2 1\nset mol 2 type 2\n"
-                     "group one type 1\ngroup two type 2\npair_style rbc/jkr 1.2\npair_coeff 1 1 repulsive 0.5 1.2\n"
+                dict(TWO, create_box="create_box 2 box angle/types 1",
+                     before="mass 2 1\nset mol 2 type 2\n"
+                     "group one type 1\ngroup two type 2\npair_style rbc/jkr 1.2\n"
+                            "pair_coeff 1 1 repulsive 0.5 1.2\n"
                      "pair_coeff 2 2 repulsive 0.5 1.2\npair_coeff 1 2 none",
-                     membrane=SHEAR["membrane"].replace("all", "one") + "\n" + other, last=REPELLED),
-                ["nothing keeps the 1 cells of fix rbc/membrane mem and the 1 of fix rbc/membrane stiff from passing"]),
+                     membrane=SHEAR["membrane"].replace("all", "one") + "\n" + other,
+                     last=REPELLED),
+                ["nothing keeps the 1 cells of fix rbc/membrane mem and the 1 of fix rbc/membrane "
+                 "stiff from passing"]),
             "short contact": (dict(TWO, before=CONTACT.format(0.5), last=REPELLED),
                               ["repel each other from 0.5 fluid spacings on; below 1 "]),
             "thin": (dict(membrane=SHEAR["membrane"] + " interior 15"),
-                     ["fluid spacings thick, and below 2 an inside that is 10 times as viscous as the fluid is not resolved: "
-                      "use dx 0.4"]),
+                     ["fluid spacings thick, and below 2 an inside that is 10 times as viscous as "
+                      "the fluid is not resolved: use dx 0.4"]),
             "not too thin": (dict(membrane=SHEAR["membrane"] + " interior 7.5"), []),
-            "long edges": (dict(fluid=PLATES.replace("dx 1.2", "dx 0.4"), neighbor="neighbor 0.4 bin",
-                                timestep="timestep 20"),
-                           [f"mem are {mean / 0.4:.3g} fluid spacings long on average, and 0.5 to 1.7 are resolved: "
-                            "use a larger dx or a template with more vertices"]),
+            "long edges": (dict(fluid=PLATES.replace("dx 1.2", "dx 0.4"),
+                                neighbor="neighbor 0.4 bin", timestep="timestep 20"),
+                           [f"mem are {mean / 0.4:.3g} fluid spacings long on average, and 0.5 to "
+                            "1.7 are resolved: use a larger dx or a template with more vertices"]),
             "short edges": (dict(fluid=PLATES.replace("dx 1.2", "dx 3")),
-                            [f"mem are {mean / 3:.3g} fluid spacings long on average, and 0.5 to 1.7 are resolved: "
+                            [f"mem are {mean / 3:.3g} fluid spacings long on average, and 0.5 to "
+                             "1.7 are resolved: "
                              "use a smaller dx or a template with fewer vertices"])}
-        results = in_parallel(lambda name: run(scene(**cases[name][0])), [(name,) for name in cases])
+        results = in_parallel(lambda name: run(scene(**cases[name][0])),
+                              [(name,) for name in cases])
         for name, result in zip(cases, results):
             with self.subTest(name):
                 found = warnings(result)
@@ -155,13 +176,16 @@ class Warnings(unittest.TestCase):
 
     def test_cells_that_begin_at_a_plate(self):
         lowest = -read_template(POTENTIALS / "rbc_162.mol")[0][:, 2].min()
-        apart = {"lower": (lowest + 0.12, 6), "upper": (6, 12 - lowest - 0.13), "far": (lowest + 0.21, 6)}
+        apart = {"lower": (lowest + 0.12, 6), "upper": (6, 12 - lowest - 0.13),
+                 "far": (lowest + 0.21, 6)}
         for ranks in (1, 2):
             for name, (one, other) in apart.items():
                 cells = f"rbc/create rbc single 6 6 {one}\nrbc/create rbc single 18 6 {other}"
-                result = run(scene(**dict(TWO, cells=cells), before=CONTACT.format(1.3), last=REPELLED), ranks)
+                result = run(scene(**dict(TWO, cells=cells), before=CONTACT.format(1.3),
+                                   last=REPELLED), ranks)
                 expected = {"lower": ["0.12"], "upper": ["0.13"], "far": []}[name]
-                found = [re.search(r"a cell is (\S+) fluid spacings from a plate; nearer than 0.2 ", warning)
+                found = [re.search(r"a cell is (\S+) fluid spacings from a plate; nearer than 0.2 ",
+                                   warning)
                          for warning in warnings(result)]
                 self.assertEqual([match.group(1) for match in found], expected)
 
@@ -179,7 +203,8 @@ class Warnings(unittest.TestCase):
         lines = again.printed.splitlines()
         named = [n for n, line in enumerate(lines) if line.startswith("USER-RBC version")]
         self.assertEqual([lines[n] for n in named], [f"USER-RBC version {version()}"])
-        self.assertLess(named[0], next(n for n, line in enumerate(lines) if "USER-RBC scene" in line))
+        self.assertLess(named[0],
+                        next(n for n, line in enumerate(lines) if "USER-RBC scene" in line))
         self.assertIn(f"USER-RBC version {version()}\n", run(scene(**WITHOUT_CELLS)).printed)
 
     def test_nothing_without_cells(self):

@@ -9,7 +9,8 @@ from lammps_case import SHEAR, dump_line, run, scene
 from test_exact_restart import STEPS, lines
 
 HELD = 0.001
-CHANNEL = dict(fluid=SHEAR["fluid"].replace("0.0012", "v_U") + f" mean x {HELD}", before="variable U equal 0.0012",
+CHANNEL = dict(fluid=SHEAR["fluid"].replace("0.0012", "v_U") + f" mean x {HELD}",
+               before="variable U equal 0.0012",
                thermo="thermo_style custom step f_flow[13] f_flow[19] f_flow[12]", every="thermo 1")
 
 
@@ -33,8 +34,10 @@ class ShortRuns(unittest.TestCase):
         for integrator in ("midpoint", "rkc auto"):
             for fluid in (SHEAR["fluid"], SHEAR["fluid"] + f" mean x {HELD}"):
                 with self.subTest(integrator, fluid=fluid):
-                    common = dict(fluid=fluid, ib=SHEAR["ib"].replace("midpoint", integrator), before="atom_modify sort 0 0.0",
-                                  neighbor="neighbor 1.0 bin\nneigh_modify every 1 delay 0 check no",
+                    common = dict(fluid=fluid, ib=SHEAR["ib"].replace("midpoint", integrator),
+                                  before="atom_modify sort 0 0.0", neighbor="neighbor 1.0 bin\n"
+                                                                            "neigh_modify every 1 "
+                                                                            "delay 0 check no",
                                   last="fix push all addforce 1e-4 0 5e-5", dump=dump_line(STEPS))
                     ends = [run(scene(**common, run=pieces)).dump().frames[-1]
                             for pieces in (f"run {2 * STEPS}", f"run {STEPS}\nrun 0\nrun {STEPS}")]
@@ -48,7 +51,8 @@ class ShortRuns(unittest.TestCase):
     def test_a_plate_that_jumps_between_runs_is_probed_anew(self):
         # the held velocity is right from the setup on, and in the steps after it
         for change in ("variable U equal 0.05", "variable U equal -0.02*cos(step)"):
-            thermo = run(scene(**{**CHANNEL, "cells": "mass 1 1", "molecule": None, "membrane": None, "ib": None},
+            thermo = run(scene(**{**CHANNEL, "cells": "mass 1 1", "molecule": None,
+                                  "membrane": None, "ib": None},
                                run=f"run 3\n{change}\nrun 3")).thermo
             with self.subTest(change):
                 np.testing.assert_allclose(thermo["f_flow[13]"][3:5], HELD, rtol=1e-9)
@@ -56,9 +60,10 @@ class ShortRuns(unittest.TestCase):
     def test_what_becomes_stiff_between_runs(self):
         # springs that hold the vertices where they are change no velocity, only how fast they relax
         for steps in (1, 3):
-            result = run(scene(ib=SHEAR["ib"].replace("midpoint", "rkc auto"), every="thermo 1", timestep="timestep 20",
-                               thermo="thermo_style custom step f_ib[6]",
-                               run=f"run {steps}\nrun 1\nfix hold all spring/self 1\nrun 2\nunfix hold\nrun 1"))
+            result = run(scene(ib=SHEAR["ib"].replace("midpoint", "rkc auto"), every="thermo 1",
+                               timestep="timestep 20", thermo="thermo_style custom step f_ib[6]",
+                               run=f"run {steps}\nrun 1\nfix hold all spring/self 1\nrun 2\n"
+                                   "unfix hold\nrun 1"))
             radius = [table["f_ib[6]"] for table in result.tables()]
             with self.subTest(steps=steps):
                 self.assertEqual(radius[1][-1], radius[0][-1])
@@ -73,8 +78,8 @@ class FluidAlone(unittest.TestCase):
         for ranks in (1, 2):
             created, common = lines(("euler", "walls", "elastic", "no contact", "mean x"))
             dropped = dict.fromkeys(("cells", "membrane", "ib", "groups", "contact"))
-            table = ("thermo_style custom step f_flow[7] f_flow[10] f_flow[13] f_flow[19] f_vessel[1] f_vessel[4]"
-                     " f_vessel[7]")
+            table = ("thermo_style custom step f_flow[7] f_flow[10] f_flow[13] f_flow[19] "
+                     "f_vessel[1] f_vessel[4] f_vessel[7]")
             common = {**common, **dropped, "groups": "group wall type 2", "thermo_": "thermo 5",
                       "thermo": f"{table}\nthermo_modify format float %.17g",
                       "fluid": common["fluid"].replace("mean x 0.001", "mean x v_U")}
@@ -95,16 +100,21 @@ class TimestepAfterRestart(unittest.TestCase):
     def test_changes_nothing(self):
         for adapt in ("ab2 adapt 1e-4 200", "rkc auto adapt 1e-4 200", "midpoint adapt 1e-4 200"):
             ib = f"fix ib all rbc/ib flow integrator {adapt}"
-            ends = "dump atoms all custom 10 {} id xu yu zu vx vy vz\ndump_modify atoms sort id format float %.17g"
-            script = scene(ib=ib, timestep="timestep 10", last=ends.format("one"), neighbor=SHEAR["neighbor"] +
+            ends = ("dump atoms all custom 10 {} id xu yu zu vx vy vz\n"
+                    "dump_modify atoms sort id format float %.17g")
+            script = scene(ib=ib, timestep="timestep 10", last=ends.format("one"),
+                           neighbor=SHEAR["neighbor"] +
                            "\nneigh_modify every 1 delay 0 check no",
                            run="run 10\nwrite_restart r\nrun 10")
-            lines_after = dict.fromkeys(("units", "style", "boundary", "box", "create_box", "cells"))
+            lines_after = dict.fromkeys(("units", "style", "boundary", "box", "create_box",
+                                         "cells"))
             timesteps = ("", "timestep 1", "timestep 150")
             for n, timestep in enumerate(timesteps):
                 script += "clear\nread_restart r\n" + scene(
-                    **{**lines_after, "ib": ib, "timestep": timestep, "last": ends.format(f"after{n}"),
-                       "neighbor": SHEAR["neighbor"] + "\nneigh_modify every 1 delay 0 check no", "run": "run 10"})
+                    **{**lines_after, "ib": ib, "timestep": timestep,
+                       "last": ends.format(f"after{n}"),
+                       "neighbor": SHEAR["neighbor"] + "\nneigh_modify every 1 delay 0 check no",
+                       "run": "run 10"})
             result = run(script)
             whole = result.dump("one").frames
             for n, timestep in enumerate(timesteps):

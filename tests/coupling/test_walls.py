@@ -16,7 +16,8 @@ def weights(s):
     """peskin4 at s cells from a layer of the grid: distances and weights."""
     r = s % 1
     root = np.sqrt(1 + 4 * r * (1 - r))
-    return np.arange(4) - 1 - r, np.array([3 - 2 * r - root, 3 - 2 * r + root, 1 + 2 * r + root, 1 + 2 * r - root]) / 8
+    return (np.arange(4) - 1 - r,
+            np.array([3 - 2 * r - root, 3 - 2 * r + root, 1 + 2 * r + root, 1 + 2 * r - root]) / 8)
 
 
 def offset(s):
@@ -35,8 +36,8 @@ def data_file(box, *walls):
     atoms = [(kind, *x) for kind, wall in enumerate(walls, 2) for x in wall]
     lines = [f"{n} 0 {kind} {x!r} {y!r} {z!r}" for n, (kind, x, y, z) in enumerate(atoms, 1)]
     sides = [f"0 {side} {name}lo {name}hi" for side, name in zip(box, "xyz")]
-    return "\n".join(["walls", "", f"{len(atoms)} atoms", f"{1 + len(walls)} atom types", "1 angle types", "",
-                      *sides, "", "Atoms # molecular", "", *lines, ""])
+    return "\n".join(["walls", "", f"{len(atoms)} atoms", f"{1 + len(walls)} atom types",
+                      "1 angle types", "", *sides, "", "Atoms # molecular", "", *lines, ""])
 
 
 def plane(box, z):
@@ -47,14 +48,16 @@ def tube(box, radius, spacing=1.2):
     rings, around = 2 * round(box[0] / (2 * spacing)), round(2 * np.pi * radius / spacing)
     return [(box[0] * (ring + 0.3) / rings, float(box[1] / 2 + radius * np.cos(angle)),
              float(box[2] / 2 + radius * np.sin(angle)))
-            for ring in range(rings) for angle in 2 * np.pi * (np.arange(around) + 0.5 * (ring % 2)) / around]
+            for ring in range(rings)
+            for angle in 2 * np.pi * (np.arange(around) + 0.5 * (ring % 2)) / around]
 
 
 def sphere(centre, radius, spacing=1.2):
     count = round(4 * np.pi * radius**2 / spacing**2)
     z = 1 - (2 * np.arange(count) + 1) / count
     angle, across = np.pi * (3 - 5**0.5) * np.arange(count), np.sqrt(1 - z * z)
-    return (np.array(centre) + radius * np.array([across * np.cos(angle), across * np.sin(angle), z]).T).tolist()
+    return (np.array(centre) +
+            radius * np.array([across * np.cos(angle), across * np.sin(angle), z]).T).tolist()
 
 
 COLUMNS = [f"f_w[{n}]" for n in range(1, 10)] + [f"f_flow[{n}]" for n in (1, 7, 8, 10, 12)]
@@ -89,17 +92,22 @@ class Planes(unittest.TestCase):
 
     def test_poiseuille_flow_on_both_sides(self):
         for z in (12.0, 12.3):
-            result = walls(self.BOX, plane(self.BOX, z), drive=f"body 1e-4 0 0 {AT_REST}", wall="tol 1e-8", **PLATES)
-            # Of the difference equations: u = g / 8 + b y - g y^2 / 2 at y from a plate, in each channel of height h, as
-            # the mean of u at -1/2 and 1/2 is 0. The plane feels u(h) + (both shears) d - g r^2 / 2.
-            d, spread, h, g = offset(z - 0.5), mean_square(z - 0.5), np.array([z, 24 - z]), 1e-4 / VISCOSITY
+            result = walls(self.BOX, plane(self.BOX, z), drive=f"body 1e-4 0 0 {AT_REST}",
+                           wall="tol 1e-8", **PLATES)
+            # Of the difference equations: u = g / 8 + b y - g y^2 / 2 at y from a plate, in each
+            # channel of height h, as the mean of u at -1/2 and 1/2 is 0. The plane feels
+            # u(h) + (both shears) d - g r^2 / 2.
+            d, spread, h, g = (offset(z - 0.5), mean_square(z - 0.5), np.array([z, 24 - z]),
+                               1e-4 / VISCOSITY)
             u = (g / 2 * spread - d * (g * h / 2 + g / 8 / h).sum()) / (1 - d * (1 / h).sum())
             b = (u - g / 8) / h + g * h / 2
             shears = g * h - b
             # sums over cells are integrals but for the curvature, and for the spread of the kink
-            flux = (g / 8 * h + b * h**2 / 2 - g * h**3 / 6 + g * h / 24 + shears * (spread / 2 - 1 / 8)).sum()
+            flux = (g / 8 * h + b * h**2 / 2 - g * h**3 / 6 + g * h / 24 +
+                    shears * (spread / 2 - 1 / 8)).sum()
             self.assertAlmostEqual(result.thermo["f_flow[7]"][0] / (flux / 24), 1, delta=1e-3)
-            self.assertAlmostEqual(result.thermo["f_w[1]"][0] / (VISCOSITY * shears.sum() * 256), 1, delta=1e-3)
+            self.assertAlmostEqual(result.thermo["f_w[1]"][0] / (VISCOSITY * shears.sum() * 256), 1,
+                                   delta=1e-3)
 
     def test_moves_with_a_variable_velocity(self):
         z, steps, dt, final = 11.8, 8, 100.0, 4e-3
@@ -109,12 +117,14 @@ class Planes(unittest.TestCase):
         start, end = (result.dump()("xu", "yu", "zu", frame=n) for n in (0, -1))
         expected = [final * steps * dt / 2, 1e-3 * steps * dt, 0]
         np.testing.assert_allclose(end - start, np.tile(expected, (256, 1)), atol=1e-12)
-        np.testing.assert_allclose(result.dump()("vx", "vy", "vz"), np.tile([final, 1e-3, 0], (256, 1)))
+        np.testing.assert_allclose(result.dump()("vx", "vy", "vz"),
+                                   np.tile([final, 1e-3, 0], (256, 1)))
         both, d = 1 / z + 1 / (24 - z), offset(z - 0.5)
         speeds = final * np.arange(steps + 1) / steps
-        np.testing.assert_allclose(result.thermo["f_w[1]"], -VISCOSITY * speeds / (1 / both - d) * 256,
-                                   rtol=1e-3, atol=1e-9)
-        np.testing.assert_allclose(result.thermo["f_w[2]"], -VISCOSITY * 1e-3 / (1 / both - d) * 256, rtol=1e-3)
+        np.testing.assert_allclose(result.thermo["f_w[1]"],
+                                   -VISCOSITY * speeds / (1 / both - d) * 256, rtol=1e-3, atol=1e-9)
+        np.testing.assert_allclose(result.thermo["f_w[2]"],
+                                   -VISCOSITY * 1e-3 / (1 / both - d) * 256, rtol=1e-3)
 
     def test_two_walls_shear_the_fluid_between_them(self):
         # and it carries that outside with it: no force is left in a periodic box
@@ -126,17 +136,19 @@ class Planes(unittest.TestCase):
         d = offset(8.2 - 0.5)
         self.assertAlmostEqual(last["f_w[1]"][0], -last["f_v[1]"][0], delta=1e-9)
         # 16 cells to both sides: stress of both sides times 1 / (h / 2 (of two channels) - d)
-        self.assertAlmostEqual(last["f_w[1]"][0] / (-VISCOSITY * 256 * 1e-3 / (apart / 4 - d)), 1, delta=1e-3)
+        self.assertAlmostEqual(last["f_w[1]"][0] / (-VISCOSITY * 256 * 1e-3 / (apart / 4 - d)), 1,
+                               delta=1e-3)
         self.assertEqual(last["f_w[8]"][0], last["f_v[8]"][0])
 
 
 class Spheres(unittest.TestCase):
     def test_torque_in_shear_flow(self):
-        # 4 pi eta a^3 times the shear rate in unbounded flow; with the offset of a plane, of second order in 1 / a
+        # 4 pi eta a^3 times the shear rate in unbounded flow; with the offset of a plane, of second
+        # order in 1 / a
         box, radius, rate = (54, 54, 54), 8.0, 1e-4
         u = rate * box[2] / 2
-        result = walls(box, sphere((27.1, 27.2, 27.0), radius - OFFSET), drive=f"wall zlo {-u} 0 0 wall zhi {u} 0 0",
-                       wall="tol 1e-5", **PLATES)
+        result = walls(box, sphere((27.1, 27.2, 27.0), radius - OFFSET),
+                       drive=f"wall zlo {-u} 0 0 wall zhi {u} 0 0", wall="tol 1e-5", **PLATES)
         expected = 4 * np.pi * VISCOSITY * radius**3 * rate
         self.assertAlmostEqual(result.thermo["f_w[5]"][0] / expected, 1, delta=0.03)
         for n in (1, 2, 3, 4, 6):
@@ -147,7 +159,8 @@ class Spheres(unittest.TestCase):
         box, u = (20, 16, 16), 1e-3
         torques = []
         for flags in ("-1*(x>10)", "511*(x>10)-512*(x<=10)"):
-            result = walls(box, sphere((10, 8.1, 8.2), 3.5), drive=f"wall zlo {-u} 0 0 wall zhi {u} 0 0", **PLATES,
+            result = walls(box, sphere((10, 8.1, 8.2), 3.5),
+                           drive=f"wall zlo {-u} 0 0 wall zhi {u} 0 0", **PLATES,
                            before=f"displace_atoms w move -9 0 0\nvariable f atom {flags}\n"
                                   "set group w image v_f NULL NULL")
             torques.append([result.thermo[f"f_w[{n}]"][0] for n in (4, 5, 6)])
@@ -155,27 +168,31 @@ class Spheres(unittest.TestCase):
         np.testing.assert_allclose(torques[1], torques[0], rtol=1e-9, atol=1e-9 * torques[0][1])
 
     def test_drag_with_a_mean_velocity(self):
-        # Zick & Homsy: 6 pi eta a K U, K = 4.292 at 12.5 %; with the offset of a plane, 2 % per (4 dx / a)^2 or so
+        # Zick & Homsy: 6 pi eta a K U, K = 4.292 at 12.5 %; with the offset of a plane, 2 % per (4
+        # dx / a)^2 or so
         n, share = 32, 0.31017525
         radius, mean = share * n, 1e-3
-        result = walls((n, n, n), sphere((16.1, 16.2, 16.3), radius - OFFSET), drive=f"mean {mean} 0 0", wall="tol 1e-4")
+        result = walls((n, n, n), sphere((16.1, 16.2, 16.3), radius - OFFSET),
+                       drive=f"mean {mean} 0 0", wall="tol 1e-4")
         expected = 6 * np.pi * VISCOSITY * radius * 4.292 * mean
         self.assertAlmostEqual(result.thermo["f_w[1]"][0] / expected, 1, delta=0.045)
         self.assertAlmostEqual(result.thermo["f_flow[7]"][0] / mean, 1, delta=1e-12)
 
     def test_moves_through_the_box(self):
-        # as often as it crosses a cell its drag is the same; its atoms change tasks and sides of the box
+        # as often as it crosses a cell its drag is the same; its atoms change tasks and sides of
+        # the box
         box, u = (20, 16, 16), 4e-3
         surface = sphere((10, 8.1, 8.2), 3.5)
-        results = [walls(box, surface, drive="mean 0 0 0", wall=f"velocity {u} 0 0 tol 1e-6", run="run 100",
-                         every="thermo 25", ranks=ranks, neighbor="neighbor 0.5 bin",
+        results = [walls(box, surface, drive="mean 0 0 0", wall=f"velocity {u} 0 0 tol 1e-6",
+                         run="run 100", every="thermo 25", ranks=ranks, neighbor="neighbor 0.5 bin",
                          dump=dump_line(50, columns="id xu yu zu")) for ranks in (1, 2)]
         for result in results:
             moved = result.dump()("xu", frame=-1) - result.dump()("xu", frame=0)
             np.testing.assert_allclose(moved, 40, rtol=1e-12)
             force = result.thermo["f_w[1]"]
             np.testing.assert_allclose(force, force[0], rtol=1e-4)
-        np.testing.assert_allclose(results[1].thermo["f_w[1]"], results[0].thermo["f_w[1]"], rtol=1e-5)
+        np.testing.assert_allclose(results[1].thermo["f_w[1]"], results[0].thermo["f_w[1]"],
+                                   rtol=1e-5)
 
 
 class Tube(unittest.TestCase):
@@ -197,13 +214,15 @@ class Tube(unittest.TestCase):
         self.assertAlmostEqual(result.thermo["f_w[2]"][-1] / (2e-6 * volume), 1, delta=1e-9)
         self.assertLess(result.thermo["f_w[7]"][-1], 1e-3)
         self.assertGreater(result.thermo["f_flow[7]"][-1], 0)
-        self.assertEqual(result.thermo["f_flow[12]"][-1], result.thermo["f_flow[12]"][0])    # nothing changes
+        # nothing changes
+        self.assertEqual(result.thermo["f_flow[12]"][-1], result.thermo["f_flow[12]"][0])
 
     def test_changing_drive_costs_few_solves(self):
-        result = walls(self.BOX, tube(self.BOX, self.RADIUS), drive="body v_g 0 0", before="variable g equal 1e-5*(1+step)",
-                       run="run 10")
+        result = walls(self.BOX, tube(self.BOX, self.RADIUS), drive="body v_g 0 0",
+                       before="variable g equal 1e-5*(1+step)", run="run 10")
         np.testing.assert_array_less(np.diff(result.thermo["f_flow[12]"]), 3)
-        np.testing.assert_allclose(result.thermo["f_flow[7]"] / result.thermo["f_flow[7]"][0], np.arange(1, 12), rtol=2e-3)
+        np.testing.assert_allclose(result.thermo["f_flow[7]"] / result.thermo["f_flow[7]"][0],
+                                   np.arange(1, 12), rtol=2e-3)
 
     def test_solves_with_cells(self):
         for integrator in ("euler", "midpoint", "ab2", "rkc 5", "rkc auto"):
@@ -410,14 +429,14 @@ class Errors(unittest.TestCase):
     def test_groups(self):
         self.check("Fix rbc/wall w: its group has no atoms", groups="group w type 1")
         self.check("Fix rbc/wall v and Fix rbc/wall w have atoms in common", wall="\nfix v all rbc/wall flow kernel peskin4")
-        self.check("Fix rbc/wall v: kernel, sheets, tol and maxiter must be those of Fix rbc/wall w",
-                   surfaces=[plane(self.BOX, 2.0), plane(self.BOX, 6.0)], groups="group w type 2\ngroup v type 3",
-                   wall="\nfix v v rbc/wall flow tol 1e-4")
+        self.check("Fix rbc/wall v: kernel, sheets, tol and maxiter must be those of Fix "
+                   "rbc/wall w", surfaces=[plane(self.BOX, 2.0), plane(self.BOX, 6.0)],
+                   groups="group w type 2\ngroup v type 3", wall="\nfix v v rbc/wall flow tol 1e-4")
         self.check("Fix rbc/wall v: kernel, sheets, tol and maxiter must be those of Fix rbc/wall w",
                    surfaces=[plane(self.BOX, 2.0), plane(self.BOX, 6.0)], groups="group w type 2\ngroup v type 3",
                    wall="\nfix v v rbc/wall flow kernel peskin4 sheets yes")
-        self.check("Fix rbc/ib ib would move atoms of fix rbc/wall w: their groups must have no atoms in common",
-                   ib="fix ib all rbc/ib flow")
+        self.check("Fix rbc/ib ib would move atoms of fix rbc/wall w: their groups must have no "
+                   "atoms in common", ib="fix ib all rbc/ib flow")
 
     def test_inertia(self):
         self.check("Fix rbc/wall w needs fix rbc/fluid flow inertia none", drive="inertia unsteady")

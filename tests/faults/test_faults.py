@@ -20,9 +20,12 @@ from lammps_case import SHEAR, Job, attempt, dump_line, in_parallel, run, scene
 
 PIPE_BYTES = 4096       # the least that a pipe holds
 COLUMNS = "id xu yu zu vx vy vz"
-BOX = dict.fromkeys(("units", "style", "newton", "boundary", "processors", "box", "create_box", "cells"))
-# A flow with a history, which goes into restart files, too. A restart builds lists of neighbours anew.
-CASE = dict(neighbor=SHEAR["neighbor"] + "\nneigh_modify every 1 delay 0 check no", fluid=SHEAR["fluid"].replace("inertia none", "inertia unsteady"), timestep="timestep 1")
+BOX = dict.fromkeys(("units", "style", "newton", "boundary", "processors", "box", "create_box",
+                     "cells"))
+# A flow with a history, which goes into restart files, too. A restart builds lists of neighbours
+# anew.
+CASE = dict(neighbor=SHEAR["neighbor"] + "\nneigh_modify every 1 delay 0 check no",
+            fluid=SHEAR["fluid"].replace("inertia none", "inertia unsteady"), timestep="timestep 1")
 GOOD, BAD = "good.restart", "bad.restart"
 
 
@@ -100,11 +103,15 @@ class Killed(unittest.TestCase):
         return job.folder
 
     def test_a_restart_goes_on_from_the_last_whole_file(self):
-        whole = {ranks: run(written(dump=dump_line(15, columns=COLUMNS)), ranks).dump().frames[-1] for ranks in (1, 2)}
-        everyone, one, last = (lambda _, tasks: tasks), (lambda _, tasks: tasks[:1]), (lambda _, tasks: tasks[-1:])
-        cases = {"kill the only task": (1, signal.SIGKILL, everyone), "kill all": (2, signal.SIGKILL, everyone),
+        whole = {ranks: run(written(dump=dump_line(15, columns=COLUMNS)), ranks).dump().frames[-1]
+                 for ranks in (1, 2)}
+        everyone, one, last = ((lambda _, tasks: tasks), (lambda _, tasks: tasks[:1]),
+                               (lambda _, tasks: tasks[-1:]))
+        cases = {"kill the only task": (1, signal.SIGKILL, everyone),
+                 "kill all": (2, signal.SIGKILL, everyone),
                  "kill one": (2, signal.SIGKILL, one), "kill another": (2, signal.SIGKILL, last),
-                 "kill mpiexec and all": (2, signal.SIGKILL, lambda launcher, tasks: [*tasks, launcher]),
+                 "kill mpiexec and all": (2, signal.SIGKILL,
+                                          lambda launcher, tasks: [*tasks, launcher]),
                  "terminate the only task": (1, signal.SIGTERM, everyone),
                  "terminate mpiexec": (2, signal.SIGTERM, lambda launcher, tasks: [launcher]),
                  "terminate one": (2, signal.SIGTERM, one)}
@@ -125,7 +132,8 @@ class Killed(unittest.TestCase):
         places = [0, 1, 20, 500, *(len(content) * n // 8 for n in range(1, 8)), len(content) - 1]
         for place in places:
             (folder / f"cut.{place}").write_bytes(content[:place])
-        results = in_parallel(lambda place: attempt(continued(folder / f"cut.{place}")), [(place,) for place in places])
+        results = in_parallel(lambda place: attempt(continued(folder / f"cut.{place}")),
+                              [(place,) for place in places])
         for place, result in zip(places, results):
             with self.subTest(bytes=place, of=len(content)):
                 # LAMMPS 4Feb2025 crashes after its error if names of groups are cut
@@ -148,7 +156,8 @@ class NotWritten(unittest.TestCase):
 
     def outputs(self, folder=""):
         for name, (lines, file) in OUTPUTS.items():
-            script = scene(**{**CASE, **{line: text.format(folder) for line, text in lines.items()}, "run": "run 2"})
+            script = scene(**{**CASE, **{line: text.format(folder) for line, text in lines.items()},
+                              "run": "run 2"})
             for ranks in (1, 2):
                 yield name, ranks, script, file
 

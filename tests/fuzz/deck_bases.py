@@ -17,7 +17,8 @@ SCRIPT = "in.deck"
 STEPS = 2
 
 CELL = dict(shape="rbc_162", dx=1.0)
-PACKED = dict(shape="rbc_42", dx=1.0)    # tables of distances of a finer cell would take most of the time
+# tables of distances of a finer cell would take most of the time
+PACKED = dict(shape="rbc_42", dx=1.0)
 CAPSULE = dict(shape="capsule_162")
 SMALL_BLOOD = dict(PACKED, hematocrit=0.15, error=1e-2)
 
@@ -25,7 +26,8 @@ SMALL_BLOOD = dict(PACKED, hematocrit=0.15, error=1e-2)
 EXAMPLES = {
     "balloon": dict(CAPSULE, dx=0.5, box=5),
     "blood": dict(PACKED, length=10, gap=10, hematocrit=0.2, every=1, frames=1),
-    "blood-tube": dict(PACKED, tube=12, length=10, hematocrit=0.15, adhesion=2e-4, every=1, frames=1),
+    "blood-tube": dict(PACKED, tube=12, length=10, hematocrit=0.15, adhesion=2e-4, every=1,
+                       frames=1),
     "capsule-channel": dict(CAPSULE, cells=5, length=4, ratio=0.6),
     "capsule-shear": dict(CAPSULE, dx=0.5, length=4, gap=4),
     "cell-statistics": dict(PACKED, cells=2),
@@ -116,7 +118,8 @@ def stl_text(triangles):
 
 def stl_binary(triangles):
     largest = 3e38    # of the numbers in the file
-    records = [struct.pack("<12fH", 0, 0, 0, *(max(-largest, min(x, largest)) for corner in triangle for x in corner), 0)
+    records = [struct.pack("<12fH", 0, 0, 0, *(max(-largest, min(x, largest)) for corner in triangle
+                                               for x in corner), 0)
                for triangle in triangles]
     return b"vessel".ljust(80) + struct.pack("<I", len(triangles)) + b"".join(records)
 
@@ -202,6 +205,7 @@ def bases():
 def shorten(script):
     """The script with all of its runs cut short, also those of a mutated script; bytes."""
     text = script.decode("latin-1")
-    text = re.sub(r"^(\s*run\s+)(\$\S+|\d{2,}|[4-9])(?=\s|$)", rf"\g<1>{STEPS}", text, flags=re.MULTILINE)
+    text = re.sub(r"^(\s*run\s+)(\$\S+|\d{2,}|[4-9])(?=\s|$)", rf"\g<1>{STEPS}", text,
+                  flags=re.MULTILINE)
     text = re.sub(r'"run [^"]*"', f'"run {STEPS}"', text)
     return text.encode("latin-1")

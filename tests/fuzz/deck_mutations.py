@@ -5,9 +5,9 @@ import re
 
 from deck_bases import SCRIPT, stl_binary, stl_text
 
-NUMBERS = ["0", "-1", "1", "2", "3", "1e-300", "1e300", "-1e300", "1e-9", "1e9", "nan", "inf", "-inf", "0.5", "1e",
-           "2147483647", "2147483648", "-2147483648", "9223372036854775807", "18446744073709551616", "1.5", "0x10",
-           "1e308", "5e-324", "٣", "", "INF", "EDGE", "NULL"]
+NUMBERS = ["0", "-1", "1", "2", "3", "1e-300", "1e300", "-1e300", "1e-9", "1e9", "nan", "inf",
+           "-inf", "0.5", "1e", "2147483647", "2147483648", "-2147483648", "9223372036854775807",
+           "18446744073709551616", "1.5", "0x10", "1e308", "5e-324", "٣", "", "INF", "EDGE", "NULL"]
 WORDS = """
     adapt adhesive aggregate all area attempts auto ab2 bending body c_cell c_none c_cell[1] courant coupled crease
     density dihedral direct dx elastic euler f_flow f_flow[1] f_flow[99] flow grid helfrich hematocrit inertia
@@ -57,7 +57,8 @@ def _number(random, word):
         value = float(word)
     except ValueError:
         return random.choice(NUMBERS)
-    return repr(random.choice([-value, 10 * value, value / 10, 1000 * value, value + 1, value * (1 + 1e-9), value / 1e6]))
+    return repr(random.choice([-value, 10 * value, value / 10, 1000 * value, value + 1,
+                               value * (1 + 1e-9), value / 1e6]))
 
 
 def _change_word(random, line):
@@ -65,7 +66,8 @@ def _change_word(random, line):
     if not words:
         return line
     place = random.randrange(len(words))
-    action = random.choice(["number", "number", "number", "word", "word", "drop", "twice", "swap", "cut", "letter"])
+    action = random.choice(["number", "number", "number", "word", "word", "drop", "twice", "swap",
+                            "cut", "letter"])
     if action == "number":
         numeric = [n for n, word in enumerate(words) if re.search(r"\d", word)] or [place]
         place = random.choice(numeric)
@@ -83,7 +85,8 @@ def _change_word(random, line):
         del words[place:]
     else:
         letter = random.randrange(len(words[place]) or 1)
-        words[place] = words[place][:letter] + chr(random.randrange(33, 256)) + words[place][letter + 1:]
+        words[place] = (words[place][:letter] + chr(random.randrange(33, 256)) +
+                        words[place][letter + 1:])
     return " ".join(words)
 
 
@@ -91,7 +94,8 @@ def _change_lines(random, lines, others):
     """Changes one of the lines, or their order; returns what was done."""
     place = random.randrange(len(lines))
     before = lines[place]
-    action = random.choices(["word", "insert", "other", "drop", "twice", "swap", "move"], [12, 4, 2, 2, 1, 1, 1])[0]
+    action = random.choices(["word", "insert", "other", "drop", "twice", "swap", "move"],
+                            [12, 4, 2, 2, 1, 1, 1])[0]
     if action == "word":
         lines[place] = _change_word(random, before)
         return f"line {place + 1}: {before!r} -> {lines[place]!r}"
@@ -122,7 +126,8 @@ def _change_bytes(random, content):
     action = random.choice(["flip", "cut", "insert", "repeat", "zero", "append", "drop"])
     length = random.choice([1, 4, 12, 50])
     if action == "flip":
-        content = content[:place] + bytes([content[place] ^ 1 << random.randrange(8)]) + content[place + 1:]
+        content = (content[:place] + bytes([content[place] ^ 1 << random.randrange(8)]) +
+                   content[place + 1:])
     elif action == "cut":
         content = content[:place]
     elif action == "insert":
@@ -141,7 +146,8 @@ def _change_bytes(random, content):
 def _triangles_of(text):
     found = re.findall(r"^vertex (\S+) (\S+) (\S+)$", text, re.MULTILINE)
     corners = [tuple(float(x) for x in corner) for corner in found]
-    return list(zip(corners[::3], corners[1::3], corners[2::3]))    # without what is left of a damaged one
+    # without what is left of a damaged one
+    return list(zip(corners[::3], corners[1::3], corners[2::3]))
 
 
 def _change_mesh(random, content):
@@ -153,7 +159,8 @@ def _change_mesh(random, content):
     if not triangles:
         return _change_bytes(random, content)
     place = random.randrange(len(triangles))
-    action = random.choice(["drop", "turn", "twice", "scale", "shift", "flat", "far", "lid", "inside out", "one"])
+    action = random.choice(["drop", "turn", "twice", "scale", "shift", "flat", "far", "lid",
+                            "inside out", "one"])
     a, b, c = triangles[place]
     if action == "drop":
         del triangles[place]
@@ -169,14 +176,16 @@ def _change_mesh(random, content):
             changed = list(x)
             changed[axis] = x[axis] * factor if action == "scale" else x[axis] + factor
             return tuple(changed)
-        triangles = [tuple(x if action == "one" and x != a else moved(x) for x in t) for t in triangles]
+        triangles = [tuple(x if action == "one" and x != a else moved(x) for x in t)
+                     for t in triangles]
     elif action == "flat":
         triangles[place] = (a, a, b)
     elif action == "far":
         triangles[place] = (a, b, (1e30, -1e30, 0))
     else:
         triangles = [(b, a, c) for a, b, c in triangles]
-    return random.choice([stl_text, stl_binary])(triangles), f"mesh: {action} at triangle {place + 1}"
+    return (random.choice([stl_text, stl_binary])(triangles),
+            f"mesh: {action} at triangle {place + 1}")
 
 
 def mutate(files, originals, random):
@@ -190,7 +199,8 @@ def mutate(files, originals, random):
             change = random.choice([_change_bytes, _change_mesh])
             files[name], done = change(random, files[name])
         else:
-            other = originals[random.choice(sorted(originals))][SCRIPT].decode("latin-1").split("\n")[:-1]
+            other = originals[
+                random.choice(sorted(originals))][SCRIPT].decode("latin-1").split("\n")[:-1]
             others = lines_to_insert() + other if name == SCRIPT else None
             text = files[name].decode("latin-1")
             if name.endswith(".mol") and random.random() < 0.3:

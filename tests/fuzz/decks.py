@@ -61,7 +61,8 @@ def limit_resources(sanitized, core):
 
 def environment(session):
     options = f"detect_leaks=0:hard_rss_limit_mb={MEMORY_MB}:max_allocation_size_mb={MEMORY_MB}"
-    return {**os.environ, **ENVIRONMENT, "ASAN_OPTIONS": f"{options}:{os.environ.get('ASAN_OPTIONS', '')}",
+    return {**os.environ, **ENVIRONMENT,
+            "ASAN_OPTIONS": f"{options}:{os.environ.get('ASAN_OPTIONS', '')}",
             "OMPI_MCA_orte_tmpdir_base": session,
             "OMPI_MCA_ess_singleton_isolated": "1"}    # one task needs no daemon of MPI
 
@@ -129,7 +130,8 @@ def not_finite(printed):
 
 def last_words(printed):
     """The line that says most about why a run ended."""
-    for pattern in (r"^.*(?:ERROR: AddressSanitizer|runtime error:).*$", r"^ERROR.*$", r"^Exception.*$",
+    for pattern in (r"^.*(?:ERROR: AddressSanitizer|runtime error:).*$", r"^ERROR.*$",
+                    r"^Exception.*$",
                     r"^.*(?:Signal:|exited on signal).*$"):
         found = re.search(pattern, printed, re.MULTILINE)
         if found:
@@ -188,19 +190,25 @@ def report(ends):
 
 
 def parse(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=5000, help="number of decks")
     parser.add_argument("--first", type=int, default=0, help="number of the first deck")
-    parser.add_argument("--only", type=int, nargs="+", help="numbers of decks, in place of --first and --count")
+    parser.add_argument("--only", type=int, nargs="+",
+                        help="numbers of decks, in place of --first and --count")
     parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2])
     parser.add_argument("--seconds", type=float, help="begin no deck after this time")
     parser.add_argument("--limit", type=float, default=30, help="seconds that a run may take")
-    parser.add_argument("--no-retry", action="store_true", help="a run over the limit is a hang at once")
+    parser.add_argument("--no-retry", action="store_true",
+                        help="a run over the limit is a hang at once")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--keep", action="store_true", help="keep the folders of all decks, not only of findings")
-    parser.add_argument("--folder", type=Path, default=Path("decks"), help="where decks are written and run")
-    parser.add_argument("--lmp", type=Path, default=Path(os.environ.get("LMP_RBC", ROOT / "build" / "lmp_rbc")))
+    parser.add_argument("--keep", action="store_true",
+                        help="keep the folders of all decks, not only of findings")
+    parser.add_argument("--folder", type=Path, default=Path("decks"),
+                        help="where decks are written and run")
+    parser.add_argument("--lmp", type=Path,
+                        default=Path(os.environ.get("LMP_RBC", ROOT / "build" / "lmp_rbc")))
     parser.add_argument("--mpiexec", default=os.environ.get("MPIEXEC", "mpiexec"))
     options = parser.parse_args(arguments)
     options.folder = options.folder.resolve()

@@ -21,8 +21,10 @@ ARGUMENTS = [
     ("ib", "flow integrator ab2 kernel peskin4"),
     ("ib", "flow integrator euler"),
     ("membrane", "rbc mooney-rivlin 0.2 0.02 0.01 bending 2e-4 reference dihedral volume yes"),
-    ("membrane", "rbc skalak 0.005 50 bending 2e-4 0.0 helfrich area 1 0.05 volume 1 crease 0.1 45"),
-    ("membrane", "rbc neo-hookean 1 stretch 0.1 2 swell v_v viscosity 100 thinning 10 1e-5 stress-free rbc"),
+    ("membrane",
+     "rbc skalak 0.005 50 bending 2e-4 0.0 helfrich area 1 0.05 volume 1 crease 0.1 45"),
+    ("membrane",
+     "rbc neo-hookean 1 stretch 0.1 2 swell v_v viscosity 100 thinning 10 1e-5 stress-free rbc"),
     ("wall", "flow velocity 0 v_v 0 kernel roma3 sheets yes tol 1e-3 maxiter 10"),
     ("vtk", "1 cells.*.vtp unwrap yes aggregate agg"),
     ("vtk", "10 cells.*.pvtp"),
@@ -60,7 +62,8 @@ TETRAHEDRON = "v 1 1 1\nv 1 -1 -1\nv -1 1 -1\nv -1 -1 1\nf 1 2 3\nf 1 3 4\nf 1 4
 
 
 def letter(style):
-    first = ord("a") - ord("a") % len(STYLES) + len(STYLES)    # the first letter of the alphabet's multiples
+    # the first letter of the alphabet's multiples
+    first = ord("a") - ord("a") % len(STYLES) + len(STYLES)
     return chr(first + STYLES.index(style))
 
 
@@ -73,7 +76,8 @@ def main():
         sys.exit(__doc__)
     folder = Path(sys.argv[1])
     small = prism(sides=4, layers=1)
-    seeds = {"stl": {"text": stl_text(small), "binary": stl_binary(small), "prism": stl_text(prism())},
+    seeds = {"stl": {"text": stl_text(small), "binary": stl_binary(small),
+                     "prism": stl_text(prism())},
              "template": {"octahedron": OCTAHEDRON.encode(), "tetrahedron": TETRAHEDRON.encode()},
              "arguments": {str(n): (letter(style) + words).encode()
                            for n, (style, words) in enumerate(ARGUMENTS)}}

@@ -11,8 +11,8 @@ SECONDS = 60
 
 class MutatedDecks(unittest.TestCase):
     def test_none_ends_as_no_run_may(self):
-        options = decks.parse(["--seed", "18", "--count", "60", "--seconds", str(SECONDS), "--jobs", "2",
-                               "--folder", str(Path.cwd() / "decks")])
+        options = decks.parse(["--seed", "18", "--count", "60", "--seconds", str(SECONDS), "--jobs",
+                               "2", "--folder", str(Path.cwd() / "decks")])
         ends = decks.campaign(options)
         self.assertEqual(decks.report(ends), [])
         # mutations leave some decks whole: otherwise nothing but the reading of input is tried

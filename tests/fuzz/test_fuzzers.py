@@ -18,15 +18,17 @@ def clang_links_libfuzzer():
     if not shutil.which("clang++"):
         return False
     source = Path("empty_fuzz.cpp")
-    source.write_text('extern "C" int LLVMFuzzerTestOneInput(const unsigned char *, unsigned long) { return 0; }\n')
-    done = subprocess.run(["clang++", "-fsanitize=fuzzer,address,undefined", source, "-o", "empty_fuzz"],
+    source.write_text('extern "C" int LLVMFuzzerTestOneInput(const unsigned char *, unsigned long) '
+                      '{ return 0; }\n')
+    done = subprocess.run(["clang++", "-fsanitize=fuzzer,address,undefined", source, "-o",
+                           "empty_fuzz"],
                           capture_output=True, check=False)
     return done.returncode == 0
 
 
 def ended_well(*command, **options):
-    done = subprocess.run(list(map(str, command)), text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                          check=False, **options)
+    done = subprocess.run(list(map(str, command)), text=True, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, check=False, **options)
     if done.returncode:
         raise AssertionError(f"{command}:\n{done.stdout[-5000:]}")
     return done.stdout
@@ -45,7 +47,8 @@ class Fuzzers(unittest.TestCase):
                 corpus = Path("corpus") / target
                 shutil.rmtree(corpus, ignore_errors=True)
                 corpus.mkdir(parents=True)
-                printed = ended_well(build / f"{target}_fuzz", "-seed=18", f"-max_total_time={SECONDS}", "-timeout=120",
+                printed = ended_well(build / f"{target}_fuzz", "-seed=18",
+                                     f"-max_total_time={SECONDS}", "-timeout=120",
                                      f"-dict=seeds/{target}.dict", corpus, f"seeds/{target}")
                 print(printed.strip().splitlines()[-1])
 
