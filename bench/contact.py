@@ -93,8 +93,7 @@ def main():
             seconds, result = per_step(pair, check, few, many)
             rows.append([name, what, seconds - base, 1e6 * (seconds - base) / VERTICES])
             print("{:10} {:22} {:6.1f} ms, {:.3f} us per vertex".format(
-                name, what, 1e3 * rows[-1][2], rows[-1][3]),
-                  flush=True)
+                name, what, 1e3 * rows[-1][2], rows[-1][3]), flush=True)
     print(f"area in contact: {2 * result.thermo['c_contact[1]'][-1] / 512:.1f} um^2 of each cell")
     with open(arguments.output / "contact.csv", "w", encoding="utf-8", newline="") as stream:
         table = csv.writer(stream, lineterminator="\n")

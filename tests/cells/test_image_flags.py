@@ -74,9 +74,9 @@ class ImageFlags(unittest.TestCase):
         self.assertNotEqual(rows, lines)
         for ranks in (1, 4):
             with self.subTest(ranks=ranks):
-                result = run(scene(
-                    **dict(AT_REST, box=None, create_box="read_data bare.data", cells=None)), ranks,
-                             files={"bare.data": "\n".join(rows) + "\n"})
+                result = run(
+                    scene(**dict(AT_REST, box=None, create_box="read_data bare.data", cells=None)),
+                    ranks, files={"bare.data": "\n".join(rows) + "\n"})
                 self.at_rest(result)
 
     def test_reset_atoms_image(self):

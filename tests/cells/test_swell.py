@@ -101,8 +101,8 @@ class Swell(unittest.TestCase):
                     fluid=None, ib="fix move all nve\nfix drag all viscous 5e-3", dt=0.1,
                     every="thermo 30", molecule=f"molecule ball {POTENTIALS}/capsule_362.mol",
                     law=f"neo-hookean {shear}",
-                    run=f"run {steps}\nvariable f delete\nvariable f equal 1.4\nrun {steps}"),
-                             ranks)
+                    run=f"run {steps}\nvariable f delete\nvariable f equal 1.4\n"
+                        f"run {steps}"), ranks)
                 rest, first, found = (result.thermo["v_f"], result.thermo["c_cell[1][6]"][0],
                                       volume(result))
                 np.testing.assert_allclose(result.thermo["f_mem[4]"],

@@ -38,9 +38,10 @@ class Volume(unittest.TestCase):
 
     def test_comes_back(self):
         # from 2 % too small, within some tens of steps
-        thermo = run(scene(**COMPUTE, run="run 100", last="\n".join(
-            f"variable {d} atom 6+0.9933*({d}-6)" for d in "xyz") +
-                           "\nset group all x v_x y v_y z v_z")).thermo
+        thermo = run(scene(
+            **COMPUTE, run="run 100",
+            last="\n".join(f"variable {d} atom 6+0.9933*({d}-6)" for d in "xyz") +
+                 "\nset group all x v_x y v_y z v_z")).thermo
         volume = thermo["c_cell[1][6]"] / run(scene(**COMPUTE)).thermo["c_cell[1][6]"][0]
         self.assertLess(volume[0], 0.981)
         self.assertLess(abs(volume[-1] - 1), 1e-3)

@@ -74,8 +74,9 @@ class Steady(unittest.TestCase):
                                        atol=1e-10 * speed)
         np.testing.assert_allclose(data[..., 2], 0, atol=1e-10 * speed)
         # a normal force is held by the pressure
-        np.testing.assert_allclose(data[..., 3], np.broadcast_to(
-            (force[2] * (Z - H / 2))[:, None, None], (N, 4, 6)),
+        np.testing.assert_allclose(data[..., 3],
+                                   np.broadcast_to((force[2] * (Z - H / 2))[:, None, None],
+                                                   (N, 4, 6)),
                                    atol=1e-10 * max(abs(force[2]) * H, ETA * speed / H))
         np.testing.assert_allclose(data[..., 4:], np.broadcast_to(force, (N, 4, 6, 3)),
                                    atol=1e-12 * max(1e-30, abs(np.array(force)).max()))
@@ -155,9 +156,10 @@ class Steady(unittest.TestCase):
         # viscosity in g/mol/A/fs, body force and tractions in kcal/mol/A^3 and kcal/mol/A/A^2
         for body, upper, factors in (("0 0 0", "0.003 0 0", (48.88821291**2, 1)),
                                      ("1e-3 0 2e-3", "0 0 0", (1, 48.88821291**-2))):
-            micro, real = (vector(
-                run(fluid_scene(body, upper=upper, units=f"units {units}", timestep=None)).thermo)
-                           for units in ("micro", "real"))
+            micro, real = (
+                vector(run(fluid_scene(body, upper=upper, units=f"units {units}",
+                                       timestep=None)).thermo)
+                for units in ("micro", "real"))
             np.testing.assert_allclose(real[:6], micro[:6] * factors[0], rtol=1e-9, atol=1e-15)
             np.testing.assert_allclose(real[6:10], micro[6:10] * factors[1], rtol=1e-9, atol=1e-18)
 

@@ -253,10 +253,12 @@ class WithACell(unittest.TestCase):
         steady = self.ends(100, 2e4, **NONE)
         for name in ("inertia unsteady", "inertia convective"):
             with self.subTest(name):
-                apart = [abs(self.ends(
-                    100, 2e4, **{**WITH_CELLS[name], "fluid": WITH_CELLS[name]["fluid"].replace(
-                    "1.025", f"{density}")}) - steady).max() / DIAMETER
-                         for density in (1.025, 0.1025, 0.01025)]
+                apart = [
+                    abs(self.ends(100, 2e4, **{
+                        **WITH_CELLS[name],
+                        "fluid": WITH_CELLS[name]["fluid"].replace("1.025", f"{density}")}) -
+                        steady).max() / DIAMETER
+                    for density in (1.025, 0.1025, 0.01025)]
                 print(f"\n{name}: {apart} diameters from inertia none")
                 self.assertLess(apart[0], 1e-3)
                 self.assertLess(apart[1], 1e-4)
@@ -303,9 +305,9 @@ class Pieces(unittest.TestCase):
         for name, (whole, pieces) in zip(names, results):
             with self.subTest(name, lines=lines, ranks=ranks):
                 a, b = whole.dump(), pieces.dump()
-                compare = (np.testing.assert_array_equal
-                           if exact else lambda x, y: np.testing.assert_allclose(
-                    x, y, atol=1e-12 * DIAMETER, rtol=0))
+                compare = (np.testing.assert_array_equal if exact else
+                           lambda x, y: np.testing.assert_allclose(x, y, atol=1e-12 * DIAMETER,
+                                                                   rtol=0))
                 compare(b.positions(), a.positions())
                 compare(b.forces(), a.forces())
                 if exact:

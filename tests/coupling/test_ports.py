@@ -271,9 +271,10 @@ class Unused(unittest.TestCase):
 
     def test_a_solve_with_ports_costs_a_transform_more(self):
         """And two scalar fields: the supply and its modes."""
-        memory = [float(re.search(r"(\S+) bytes of memory per cell", run(
-            scene(CELL, ports=ports, thermo="thermo_style custom step", run="run 5")).printed)
-                        .group(1))
+        memory = [
+            float(re.search(r"(\S+) bytes of memory per cell", run(
+                scene(CELL, ports=ports, thermo="thermo_style custom step", run="run 5"))
+                .printed).group(1))
             for ports in ("", CELL["ports"])]
         self.assertLess(memory[1] - memory[0], 8 + 16 * 0.6)
         self.assertGreater(memory[1] - memory[0], 8)

@@ -70,9 +70,9 @@ class RetakenSteps(unittest.TestCase):
         result = run(scene(**lifted(5, 200, 4000)))
         wrong = int(result.thermo["f_ib[10]"][-1])
         self.assertGreater(wrong, 0)
-        self.assertEqual([
-            int(n) for n in re.findall(r"Steps taken again: (\d+), (\d+) of them gone wrong",
-                                       result.printed)[0]],
+        self.assertEqual([int(n) for n in
+                          re.findall(r"Steps taken again: (\d+), (\d+) of them gone wrong",
+                                     result.printed)[0]],
                          [int(result.thermo["f_ib[8]"][-1]), wrong])
         self.assertRegex(result.printed, rf"WARNING: Fix rbc/ib ib took steps again, {wrong} times")
 

@@ -95,8 +95,9 @@ class Numbers(unittest.TestCase):
         styles = {"plates yes": "pair rbc/jkr plates", "walls middle": "pair rbc/jkr walls middle",
                   "plates yes walls middle": "pair rbc/jkr plates, walls middle", "plates no": ""}
         results = in_parallel(
-            lambda words: run(scene(**TWO, before=region + CONTACT.format(1.3).replace(
-            "1.3\n", f"1.3 {words}\n"))), [(words,) for words in styles])
+            lambda words: run(scene(
+                **TWO, before=region + CONTACT.format(1.3).replace("1.3\n", f"1.3 {words}\n"))),
+            [(words,) for words in styles])
         for repelling, result in zip(styles.values(), results):
             with self.subTest(repelling):
                 if repelling:

@@ -22,10 +22,11 @@ class Timestep(BadInput):
 
     def test_zero_for_the_velocities_of_a_configuration(self):
         for changes in (dict(), dict(ib=IB + "euler"), dict(ib=IB + "rkc auto adapt 1e-2 200")):
-            zero, short = (run(
-                scene(**{**dict(ib=IB + "midpoint", timestep=f"timestep {dt}", dump=dump_line(
-                1, columns="id vx vy vz")), **changes})).dump()("vx", "vy", "vz")
-                           for dt in (0, 1e-3))
+            zero, short = (
+                run(scene(**{**dict(ib=IB + "midpoint", timestep=f"timestep {dt}",
+                                    dump=dump_line(1, columns="id vx vy vz")),
+                             **changes})).dump()("vx", "vy", "vz")
+                for dt in (0, 1e-3))
             self.assertTrue(np.isfinite(zero).all())
             self.assertGreater(abs(zero).max(), 1e-4)
             np.testing.assert_allclose(zero, short, rtol=0, atol=1e-10 * abs(short).max())

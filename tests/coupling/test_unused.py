@@ -50,9 +50,9 @@ class OneCell(unittest.TestCase):
 
     def test_layers_for_sheets_only(self):
         """Messages are the same; sheets exchange two layers of ghost cells more, points do not."""
-        points, sheets = (traffic(
-            run(scene(SHEAR, ib=SHEAR["ib"] + f" sheets {word}", run="run 10"), ranks=2))
-                          for word in ("no", "yes"))
+        points, sheets = (
+            traffic(run(scene(SHEAR, ib=SHEAR["ib"] + f" sheets {word}", run="run 10"), ranks=2))
+            for word in ("no", "yes"))
         self.assertEqual(points[0], sheets[0])
         self.assertLess(points[1], sheets[1])
 

@@ -170,7 +170,7 @@ class Template(unittest.TestCase):
                 surface_mesh.check(points, bad)
         with self.assertRaises(ValueError):
             surface_mesh.check(np.vstack([points, points + 3]),
-                                np.vstack([triangles, triangles + len(points)]))
+                               np.vstack([triangles, triangles + len(points)]))
 
     def test_bad_arguments_are_refused(self):
         for words in ("sphere -f 0", "sphere -f 2 --radius 0", "disc -f 2 --diameter nan",

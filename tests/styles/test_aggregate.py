@@ -374,8 +374,8 @@ fix         out all rbc/vtk 1 cells.*.vtp aggregate agg"""
                     timestep="timestep 0.5",
                     last="group first molecule 1:3\nvelocity first set 0.5 0 0\nfix fly all nve",
                     every="thermo 5",
-                    dump=dump_line(5, columns="id type x y z ix iy iz"), run="run 40\n" + again),
-                             ranks)
+                    dump=dump_line(5, columns="id type x y z ix iy iz"),
+                    run="run 40\n" + again), ranks)
                 first, second = result.tables()
                 self.assertGreater(len(set(first["c_agg[1]"])), 1)
                 for name, values in first.items():

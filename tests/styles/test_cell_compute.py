@@ -29,7 +29,7 @@ ROW = "c_cell[{0}][{1}]"
 def cell_scene(rows=1, group="all", **changes):
     lines = dict(compute=f"compute cell {group} rbc/cell",
                  thermo="thermo_style custom step " + " ".join(
-        ROW.format(row + 1, column) for row in range(rows) for column in range(1, 20)))
+                     ROW.format(row + 1, column) for row in range(rows) for column in range(1, 20)))
     lines.update(changes)
     return scene(**lines)
 

@@ -29,8 +29,8 @@ CONTACT_ERRORS = {
                                  ["pair rbc/jkr units dx", "no fix rbc/fluid", "units box"]),
     "cutoff below the range in spacings": (
         contact("pair_style rbc/jkr 0.19 units dx", "pair_coeff 1 1 repulsive 0.1 0.2",
-                fluid=SHEAR["fluid"].replace(
-            "dx 1.0", "dx 2.0")), ["rbc/jkr", "cutoff", "0.19", "at least 0.2", "types 1 1"]),
+                fluid=SHEAR["fluid"].replace("dx 1.0", "dx 2.0")),
+        ["rbc/jkr", "cutoff", "0.19", "at least 0.2", "types 1 1"]),
     "plates neither yes nor no": (contact("pair_style rbc/jkr 0.5 plates both"), ["both"]),
     "plates without a fluid":
         (contact("pair_style rbc/jkr 0.5 plates yes", ib=None, fluid=None, thermo=None),
