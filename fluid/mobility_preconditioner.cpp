@@ -42,8 +42,7 @@ constexpr double disc = 2;
 /// The part of normal_alias() that is taken off where so many markers are within the disc: 0.75
 /// for 10, markers 1.2 spacings apart, and less for closer ones. Markers find forces that differ
 /// from one to the next by which they see less of a pressure than in the mean, closer ones more of
-/// these: 0.86 of it in a straight tube along the grid, 0.57 where they are 1 spacing apart. What
-/// is left must not turn negative.
+/// these. Found by trial: what is left must not turn negative.
 double part_taken_off(std::size_t within)
 {
   return std::clamp(0.75 - 0.067 * (static_cast<double>(within) - 10), 0.0, 0.75);
