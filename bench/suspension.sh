@@ -19,4 +19,4 @@ mkdir -p "$BUILD/suspension"
 cd "$BUILD/suspension"
 mpirun -np 2 "$BUILD/lmp_rbc" -in "$ROOT/bench/in.suspension" -var templates "$ROOT/potentials" -var strain 0.4 \
   -log log.suspension "$@"
-grep -A 10 "step cost" log.suspension | tee "$results/suspension.txt"
+grep -A 12 "step cost" log.suspension | tee "$results/suspension.txt"

@@ -269,7 +269,7 @@ def after_restart(script):
 
 
 class Tasks(unittest.TestCase):
-    STEPS = 100
+    STEPS = 30
 
     def test_any_number_of_them(self):
         wall = f"{TUBE['wall'].replace('tol 1e-4', 'tol 1e-11')}\n{MEMBRANE}\n{CONTACT}"
