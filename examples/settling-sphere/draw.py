@@ -56,7 +56,7 @@ def alone(scene, radius, times):
         right = np.append(np.sqrt(times[n] - times[1:n]), 0.0)
         weight = 2 * radius / np.sqrt(np.pi) * (left - right)
         history = np.dot(weight[:-1], acceleration)
-        a = (WEIGHT - drag * (speed[-1] + history)) / (inertia + drag * (dt + weight[-1]))
+        a = (scene.weight - drag * (speed[-1] + history)) / (inertia + drag * (dt + weight[-1]))
         acceleration.append(a)
         speed.append(speed[-1] + a * dt)
     return np.array(speed)
