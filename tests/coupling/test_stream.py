@@ -8,6 +8,7 @@ import numpy as np
 
 from error_case import BadInput
 from lammps_case import POTENTIALS, attempt, dump_line, in_parallel, read_template, run
+from rbc.surface_distances import pair_distances
 from test_ports import MARGIN, TUBE, tube
 
 RADIUS, LENGTH = 6, 52
@@ -188,6 +189,24 @@ class Flow(unittest.TestCase):
         self.assertLess(table["f_stream[5]"][-1], 0.95)
 
 
+class Two(unittest.TestCase):
+    """Two fixes that fill one region: of each, the cells are due in the same steps."""
+
+    def test_their_cells_are_apart(self):
+        line = f"{stream_fix(STREAM)}\n" + STREAM.replace("fix stream", "fix other").replace(
+            "seed 5", "seed 9")
+        dump = dump_line(1, columns=DUMP).replace("dump atoms all", "dump atoms cells")
+        result = run(stream(**EMPTY, ib=line, dump=dump, run="run 45",
+                            thermo="thermo_style custom step f_stream[1] f_other[1]"))
+        entered = np.array([result.thermo["f_stream[1]"], result.thermo["f_other[1]"]])
+        together = np.flatnonzero((np.diff(entered) > 0).all(axis=0)) + 1
+        self.assertGreater(len(together), 0)
+        for step in together:
+            cells = [(x, TRIANGLES) for x in cells_of(result.dump().frames[step]).values()]
+            gaps = pair_distances(cells, np.full(3, 1e3), [False] * 3, 1.0)
+            self.assertGreater(gaps.min(initial=1), GAP - 1e-9)
+
+
 COIN = f"{SIDE / 2} {SIDE / 2} rotate 90 0 1 0"
 LOOP = dict(
     more=f"molecule rbc {POTENTIALS}/rbc_162.mol\nrbc/create rbc single {FEED[0] + 2} {COIN}\n"
@@ -297,6 +316,13 @@ class OtherStyles(unittest.TestCase):
             run="run 60"))
         self.assertIn("while fix mean averages them over steps", result.error)
 
+    def test_the_count_outlives_the_membranes(self):
+        lines = ["run 1", "print 'inside $(f_stream[3])'", "unfix mem",
+                 "print 'then $(f_stream[3])'"]
+        result = run(stream(run="\n".join(lines), thermo="thermo_style one"))
+        self.assertIn("inside 2\n", result.printed)
+        self.assertIn("then 0\n", result.printed)
+
     def test_bonds_go_with_the_cells(self):
         box = ("create_box 2 box bond/types 1 angle/types 1 extra/bond/per/atom 2 "
                "extra/special/per/atom 4")
@@ -374,6 +400,11 @@ class Errors(BadInput):
     def test_cells_that_nothing_moves(self):
         line = stream_fix(STREAM).replace("fix ib cells", "group moved type 1\nfix ib moved")
         self.refused(attempt(stream(ib=line)), ["new cells would not be moved"])
+
+    def test_before_the_flow_is_known(self):
+        first, *others = stream_fix(STREAM).splitlines()
+        line = "\n".join([*others, first])
+        self.refused(attempt(stream(ib=line)), ["must be defined after fix rbc/ib ib"])
 
     def test_minimize(self):
         self.refused(attempt(stream(run="minimize 0 0 1 1")), ["minimize"])

@@ -154,7 +154,7 @@ class Dump:
             data = np.array(" ".join(rows).split(), dtype=float)
             if data.size != count * len(self.columns):
                 raise ValueError(f"{path}: step {self.steps[-1]} is cut off")
-            data = data.reshape(count, -1)
+            data = data.reshape(count, len(self.columns))
             if "id" in self.columns:
                 data = data[np.argsort(data[:, self.columns.index("id")], kind="stable")]
             frames.append(data)

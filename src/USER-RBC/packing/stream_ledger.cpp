@@ -41,11 +41,6 @@ void StreamLedger::pass(double dt, double inlet, const std::vector<double> &outl
   rates_ = now;
 }
 
-int StreamLedger::due() const
-{
-  return std::max(0, static_cast<int>(std::floor(owed_ + 0.5)));
-}
-
 void StreamLedger::let_in(int cells)
 {
   owed_ -= cells;

@@ -34,9 +34,8 @@ class StreamLedger {
   void let_in(int cells);
   void let_out(int outlet);
 
-  /// Cells owed, and how many whole ones are due: those that bring this nearest to 0.
+  /// Cells owed; below 0 where more have entered.
   double owed() const { return owed_; }
-  int due() const;
 
   const Passage &inlet() const { return inlet_; }
   const Passage &outlet(int n) const { return outlets_[n]; }
