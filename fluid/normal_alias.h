@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fluid/grid.h"
-#include "fluid/spreading.h"
+#include "fluid/marker_set.h"
 
 namespace fluid {
 

@@ -22,6 +22,7 @@ class Ports(unittest.TestCase):
             pressure = last["f_in[2]"][0] / study.GRADIENT
             self.assertGreater(pressure, study.LENGTH - 1.25 * study.DIAMETER)
             self.assertLess(pressure, study.LENGTH - study.DIAMETER)
+        self.assertLess(abs(halfway - entered), 1e-4)    # what passes the wall on the finer grid
         for coarse, fine in zip(*errors):
             self.assertLess(fine, coarse / 2)
             self.assertLess(fine, 0.01)

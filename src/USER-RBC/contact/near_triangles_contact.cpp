@@ -22,8 +22,8 @@ constexpr double TOUCHING = 1e-10;
 
 bool NearTriangles::has_kept_side(const Group &group) const
 {
-  const Triangle &any = (*triangles_)[candidates_.triangle[group.begin]];
-  return any.surface != surfaces_[group.point] &&
+  const Triangle &nearest = (*triangles_)[candidates_.triangle[group.nearest]];
+  return nearest.surface != surfaces_[group.point] &&
          group.distance > held_distance(0, motion_.around(group.point));
 }
 

@@ -25,7 +25,7 @@ static constexpr double SAME_PRESSURE = 1.0e-3;
 
 // In a port the flow along the wall grows, and that in the layer which the kernel blurs with it.
 // What the layer needs beyond the wall must be supplied there: otherwise it passes the wall. These
-// spreads leave 0.1 % of the flow in a tube 20 cells wide, 0.03 % in one of 40 (examples/ports).
+// spreads were found by trial, in tubes 20 and 40 cells wide (examples/ports).
 
 static double spread_of(fluid::KernelKind kernel, fluid::MarkerKind kind)
 {
