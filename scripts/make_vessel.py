@@ -281,7 +281,7 @@ def main(words):
         points, triangles = with_lids(points, triangles)
     write_stl(options.output, points, triangles)
     volume, area = enclosed_volume(points, triangles)
-    print(f"{options.output}: {len(triangles)} triangles, area {area:.6g}, volume {volume:.6g}, "
+    print(f"{options.output}: {len(triangles)} triangles, area {area:.6g}, volume {volume:.6g}\n"
           f"x {points[:, 0].min():.6g} to {points[:, 0].max():.6g}, "
           f"y {points[:, 1].min():.6g} to {points[:, 1].max():.6g}, "
           f"z {points[:, 2].min():.6g} to {points[:, 2].max():.6g}")
