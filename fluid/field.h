@@ -20,6 +20,10 @@ template <typename T> struct View {
 template <typename T> class Buffer {
  public:
   Buffer() = default;
+
+  /// Memory of another owner, who keeps it as long as this is used.
+  Buffer(T *lent, std::size_t length) : length_(length), data_(lent, Free{false}) {}
+
   explicit Buffer(std::size_t length) :
       length_(length),
       data_(static_cast<T *>(fftw_malloc(std::max<std::size_t>(length, 1) * sizeof(T))))
@@ -30,12 +34,18 @@ template <typename T> class Buffer {
 
   T *data() const { return data_.get(); }
   std::size_t size() const { return length_; }
-  std::size_t bytes() const { return length_ * sizeof(T); }
+  /// Of its own.
+  std::size_t bytes() const { return data_.get_deleter().owned ? length_ * sizeof(T) : 0; }
+  bool empty() const { return length_ == 0; }
   void clear() { std::fill_n(data_.get(), length_, T{}); }
 
  private:
   struct Free {
-    void operator()(T *p) const { fftw_free(p); }
+    bool owned = true;
+    void operator()(T *p) const
+    {
+      if (owned) fftw_free(p);
+    }
   };
   std::size_t length_ = 0;
   std::unique_ptr<T, Free> data_;
@@ -46,6 +56,7 @@ template <typename T, int N> class Components {
  public:
   Components() = default;
   explicit Components(const Box &box) : box_(box), values_(N * box.size()) {}
+  Components(const Box &box, T *lent) : box_(box), values_(lent, N * box.size()) {}
 
   const Box &box() const { return box_; }
   View<T> operator[](int c) const { return {values_.data() + c * box_.size(), box_}; }

@@ -23,12 +23,14 @@ void add(const Components<double, N> &y, double factor, const Components<double,
 }    // namespace
 
 Flow::Flow(const Grid &grid, const Decomposition &decomposition, int ghost_layers,
-           const FlowEquations &equations) :
+           const FlowEquations &equations, bool sheets) :
     grid_(grid),
     decomposition_(decomposition), equations_(equations),
     halo_(grid, decomposition, std::max(ghost_layers, 1)), has_force_(ghost_layers > 0),
-    solver_(grid, decomposition, equations.viscosity, 0.0, equations.hold_mean, equations.scheme)
+    solver_(grid, decomposition, equations.viscosity, 0.0, equations.hold_mean, equations.scheme,
+            sheets ? 3 * halo_.box().size() : 0)
 {
+  if (sheets) sheets_ = {halo_.box(), solver_.lent()};
   total_.velocity = VectorField(halo_.box());
   if (has_force_) total_.force = VectorField(halo_.box());
   if (equations.inertia != Inertia::none) previous_ = VectorField(halo_.box());

@@ -18,9 +18,9 @@ namespace fluid {
 class Flow {
  public:
   /// Without markers (ghost_layers = 0) no memory is kept for forces, and no ghosts but those of
-  /// differences.
+  /// differences. Where markers are known to be sheets, these share memory with the solver.
   Flow(const Grid &grid, const Decomposition &decomposition, int ghost_layers,
-       const FlowEquations &equations);
+       const FlowEquations &equations, bool sheets = false);
   Flow(const Flow &) = delete;
   Flow &operator=(const Flow &) = delete;
 

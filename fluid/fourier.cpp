@@ -127,7 +127,7 @@ void RowTransform::backward(const View<Complex> &modes, const View<double> &valu
       });
 }
 
-Fourier::Fourier(const Grid &grid, const Decomposition &decomposition)
+Fourier::Fourier(const Grid &grid, const Decomposition &decomposition, std::size_t lent)
 {
   const Pencils pencils = choose_pencils(grid, decomposition.bricks);
   const MPI_Comm comm = decomposition.comm;
@@ -136,11 +136,13 @@ Fourier::Fourier(const Grid &grid, const Decomposition &decomposition)
   x_ = pencils.x[me];
   y_ = pencils.y[me];
   mode_bricks_ = pencils.z;
-  modes_ = Components<Complex, 3>(pencils.z[me]);
   to_x_ = {comm, decomposition.bricks, pencils.real_x};
+  const std::size_t modes = 6 * pencils.z[me].size(), real = 3 * real_x_.size();
+  work_ = Buffer<double>(std::max(lent, modes + (to_x_.identity() ? 0 : real)));
+  modes_ = {pencils.z[me], reinterpret_cast<Complex *>(work_.data())};
+  if (!to_x_.identity()) real_ = {real_x_, work_.data() + modes};
   x_to_y_ = {comm, pencils.x, pencils.y, nullptr};
   y_to_z_ = {comm, pencils.y, pencils.z, &modes_};
-  if (!to_x_.identity()) real_ = VectorField(real_x_);
 
   x_transform_ = RowTransform(grid.cells[0]);
   const int ny = grid.cells[1], columns = y_.extent(0), row = padded(columns);
@@ -257,8 +259,7 @@ Traffic Fourier::traffic() const
 
 std::size_t Fourier::bytes() const
 {
-  return real_.bytes() + modes_.bytes() + plane_.bytes() + to_x_.bytes() + x_to_y_.bytes() +
-         y_to_z_.bytes();
+  return work_.bytes() + plane_.bytes() + to_x_.bytes() + x_to_y_.bytes() + y_to_z_.bytes();
 }
 
 template void Fourier::forward<1>(const std::array<View<double>, 1> &);

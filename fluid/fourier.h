@@ -48,12 +48,18 @@ class RowTransform {
 
 /// Distributed real transform in x and y of up to three components at a time, unnormalised. Grid
 /// values live on the decomposition's bricks, modes on `modes()`: a box of (kx, ky) with all of z.
+/// Between a transform forward and one backward spectrum() holds the modes. Otherwise nothing is
+/// kept, and the memory is lent to others.
 class Fourier {
  public:
   Fourier(const Fourier &) = delete;
   Fourier &operator=(const Fourier &) = delete;
 
-  Fourier(const Grid &grid, const Decomposition &decomposition);
+  /// It takes memory for at least `lent` numbers.
+  Fourier(const Grid &grid, const Decomposition &decomposition, std::size_t lent = 0);
+
+  /// Memory to use between transforms.
+  double *lent() const { return work_.data(); }
 
   /// Modes (kx, ky) this rank holds, with all of z.
   const Box &modes() const { return modes_.box(); }
@@ -81,6 +87,7 @@ class Fourier {
 
   Box real_x_, x_, y_;
   std::vector<Box> mode_bricks_;
+  Buffer<double> work_;    ///< modes_ and real_
   Components<Complex, 3> modes_;
   Redistribution to_x_;
   Transposition x_to_y_, y_to_z_;

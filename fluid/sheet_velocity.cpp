@@ -35,10 +35,8 @@ const VectorField &SheetVelocity::of(const VectorField &velocity, KernelKind ker
 {
   const Box &box = velocity.box();
   const std::ptrdiff_t row = box.extent(0);
-  if (!result_.bytes()) {
-    result_ = VectorField(box);
-    for (auto &plane : curvature_) plane.resize(std::size_t(row) * box.extent(1));
-  }
+  if (!(result_.box() == box)) result_ = VectorField(box);
+  for (auto &plane : curvature_) plane.resize(std::size_t(row) * box.extent(1));
   const auto [second, fourth] = sheet_correction(kernel);
   const double middle = second + 6 * fourth, next = fourth;
   const Box once = between_plates(without_layers(box, grid, 1), grid);

@@ -15,8 +15,14 @@ class SheetVelocity {
   /// Layers of cells around a kernel that the differences need.
   static constexpr int layers = 2;
 
+  SheetVelocity() = default;
+
+  /// Velocities over `box` are stored in `lent` memory.
+  SheetVelocity(const Box &box, double *lent) : result_(box, lent) {}
+
   /// The velocity field that kernels interpolate, in all of `velocity`'s box but the outermost
-  /// layers; its ghosts must be filled. Valid until the next call. Not collective.
+  /// layers; its ghosts must be filled. Valid until the next call, or until the memory that was
+  /// lent is used otherwise. Not collective.
   const VectorField &of(const VectorField &velocity, KernelKind kernel, const Grid &grid,
                         const PlateVelocities &plates);
 

@@ -3,8 +3,8 @@
 namespace fluid {
 
 StokesSolver::StokesSolver(const Grid &grid, const Decomposition &decomposition, double viscosity,
-                           double shift, bool hold_mean, Scheme scheme) :
-    fourier_(grid, decomposition),
+                           double shift, bool hold_mean, Scheme scheme, std::size_t lent) :
+    fourier_(grid, decomposition, lent),
     modes_(!grid.plates ? make_periodic_modes(grid, fourier_.modes(), viscosity, shift, hold_mean)
            : scheme == Scheme::projection
                ? make_projected_modes(grid, fourier_.modes(), viscosity, shift)

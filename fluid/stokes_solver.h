@@ -10,9 +10,12 @@ namespace fluid {
 /// projection between plates.
 class StokesSolver {
  public:
-  /// `hold_mean` as for make_periodic_modes.
+  /// `hold_mean` as for make_periodic_modes. It takes memory for at least `lent` numbers.
   StokesSolver(const Grid &grid, const Decomposition &decomposition, double viscosity, double shift,
-               bool hold_mean, Scheme scheme = Scheme::coupled);
+               bool hold_mean, Scheme scheme = Scheme::coupled, std::size_t lent = 0);
+
+  /// Memory to use between solves.
+  double *lent() const { return fourier_.lent(); }
 
   void set_shift(double shift) { modes_->set_shift(shift); }
 

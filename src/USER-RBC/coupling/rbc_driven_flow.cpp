@@ -93,7 +93,8 @@ void DrivenFlow::build()
       "{}: not enough memory for a grid of {} x {} x {} fluid cells with {} ghost layers", style_,
       cells[0], cells[1], cells[2], ghost_layers_);
   do_or_run_out_together(lmp, shortage, [&] {
-    flow = std::make_unique<fluid::Flow>(staggered, bricks, ghost_layers_, settings_.equations);
+    flow = std::make_unique<fluid::Flow>(staggered, bricks, ghost_layers_, settings_.equations,
+                                         sheets_ || layers_);
   });
   if (flow_) {
     earlier_traffic_ = traffic();
