@@ -387,5 +387,6 @@ void FixRBCIB::warn() const
 double FixRBCIB::memory_usage()
 {
   return static_cast<double>(markers->bytes() + steps->bytes() + (masses ? masses->bytes() : 0) +
-                             (gaps ? gaps->bytes() : 0) + tractions.bytes() + contrast.bytes());
+                             (gaps ? gaps->bytes() : 0) + tractions.bytes() + contrast.bytes() +
+                             RowExchange::bytes());
 }

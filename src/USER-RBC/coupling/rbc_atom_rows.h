@@ -1,7 +1,10 @@
 #ifndef LMP_RBC_ATOM_ROWS_H
 #define LMP_RBC_ATOM_ROWS_H
 
+#include "geometry/tight_vector.h"
+
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -12,9 +15,13 @@ namespace LAMMPS_NS {
 class AtomRows {
  public:
   /// All zero.
-  void assign(int atoms) { values_.assign(3 * std::size_t(atoms), 0.0); }
+  void assign(int atoms)
+  {
+    rbc::reserve_tightly(values_, 3 * std::size_t(atoms));
+    values_.assign(3 * std::size_t(atoms), 0.0);
+  }
   /// Of any values.
-  void resize(int atoms) { values_.resize(3 * std::size_t(atoms)); }
+  void resize(int atoms) { rbc::resize_tightly(values_, 3 * std::size_t(atoms)); }
 
   double *operator[](int i) { return values_.data() + 3 * std::size_t(i); }
   const double *operator[](int i) const { return values_.data() + 3 * std::size_t(i); }
@@ -55,8 +62,16 @@ class RowExchange {
   /// The rows of ghosts are added to those of the atoms that they are copies of.
   virtual void add_from_ghosts(AtomRows &rows) = 0;
 
+  /// Rows to work with, which hold nothing between calls of those that use them.
+  AtomRows &work(int n) { return work_[n]; }
+
+  std::size_t bytes() const { return work_[0].bytes() + work_[1].bytes(); }
+
  protected:
   ~RowExchange() = default;
+
+ private:
+  std::array<AtomRows, 2> work_;
 };
 
 }    // namespace LAMMPS_NS

@@ -72,8 +72,8 @@ class GapSlip : public StepPart, protected Pointers {
   double spacing_ = 1, height_ = 1;    ///< of fluid cells: mean, and along z
   double viscosity_ = 1;
   std::vector<double> area_;    ///< of each vertex of this rank at rest; 0 for other atoms
-  AtomRows traction_;
-  AtomRows slip_;    ///< times area
+  AtomRows &traction_;
+  AtomRows &slip_;    ///< times area
   rbc::Stopwatch stopwatch_;
 
   const fluid::GapMobility &missing();

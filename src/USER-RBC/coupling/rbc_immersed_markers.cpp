@@ -13,6 +13,7 @@
 #include "dihedral.h"
 #include "domain.h"
 #include "force.h"
+#include "geometry/tight_vector.h"
 #include "improper.h"
 #include "kspace.h"
 #include "modify.h"
@@ -80,7 +81,7 @@ fluid::MarkerSet ImmersedMarkers::set() const
 
 void ImmersedMarkers::load(double **array, Numbers &numbers, int column) const
 {
-  numbers.resize(3 * members_.size());
+  rbc::resize_tightly(numbers, 3 * members_.size());
   for (std::size_t n = 0; n < members_.size(); ++n)
     for (int d = 0; d < 3; ++d) numbers[3 * n + d] = array[members_[n]][column + d];
 }

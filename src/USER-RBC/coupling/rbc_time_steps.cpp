@@ -371,7 +371,7 @@ void TimeSteps::measure_error()
   markers_.guess_velocities(V_new_);
   markers_.velocity(X_new_, 1.0, V_new_);
   velocities_known_ = true;
-  local_error_ = rbc::StepControl::error(markers_, update->dt, X_, X_new_, V_, V_new_, scratch_);
+  local_error_ = rbc::StepControl::error(markers_, update->dt, X_, X_new_, V_, V_new_);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -425,7 +425,6 @@ void TimeSteps::set_timestep(double dt, bigint from_step)
 std::size_t TimeSteps::bytes() const
 {
   std::size_t numbers = 0;
-  for (const Numbers *vector : {&X_, &V_, &X_new_, &V_new_, &scratch_})
-    numbers += vector->capacity();
+  for (const Numbers *vector : {&X_, &V_, &X_new_, &V_new_}) numbers += vector->capacity();
   return integrator_->bytes() + numbers * sizeof(double);
 }

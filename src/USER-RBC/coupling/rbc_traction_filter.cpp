@@ -30,7 +30,7 @@ static constexpr int PARTS = 3 * MODES;
 /* ---------------------------------------------------------------------- */
 
 TractionFilter::TractionFilter(LAMMPS *lmp, RowExchange &exchange) :
-    Pointers(lmp), exchange_(exchange)
+    Pointers(lmp), exchange_(exchange), smooth_(exchange.work(0)), next_(exchange.work(1))
 {
 }
 
@@ -229,8 +229,8 @@ void TractionFilter::smooth_velocities(double *velocity)
 
 std::size_t TractionFilter::bytes() const
 {
-  std::size_t bytes = force_.bytes() + rough_.bytes() + smooth_.bytes() + next_.bytes() +
-                      (cells_.capacity() + scratch_.capacity()) * sizeof(TwoRows);
+  std::size_t bytes =
+      force_.bytes() + rough_.bytes() + (cells_.capacity() + scratch_.capacity()) * sizeof(TwoRows);
   for (const Kind &kind : kinds_)
     bytes += kind.filter.bytes() + (kind.kept.capacity() + kind.lost.capacity()) * sizeof(double);
   return bytes;

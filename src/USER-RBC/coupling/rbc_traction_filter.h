@@ -64,8 +64,8 @@ class TractionFilter : public StepPart, protected Pointers {
   RowExchange &exchange_;
   std::vector<Kind> kinds_;
   AtomRows force_;
-  AtomRows rough_;            ///< tractions
-  AtomRows smooth_, next_;    ///< what is filtered, before and after a pass
+  AtomRows rough_;              ///< tractions
+  AtomRows &smooth_, &next_;    ///< what is filtered, before and after a pass
   std::vector<TwoRows> cells_, scratch_;
   double slip_ = 0;    ///< SLIP dx / viscosity
   rbc::Stopwatch stopwatch_;

@@ -61,13 +61,20 @@ inline double dot(const Motion &motion, const Numbers &a, const Numbers &b)
   return value;
 }
 
-/// Length of a vector over all points, divided by the root of the number of points.
-inline double root_mean_square(const Motion &motion, const Numbers &a)
+/// Length of a vector over all points, divided by the root of the number of points. This rank has
+/// `count` of its numbers, number(i).
+template <typename Number>
+double root_mean_square(const Motion &motion, std::size_t count, const Number &number)
 {
-  double values[2] = {0, a.size() / 3.0};
-  for (double value : a) values[0] += value * value;
+  double values[2] = {0, count / 3.0};
+  for (std::size_t i = 0; i < count; ++i) values[0] += number(i) * number(i);
   motion.sum(values, 2);
   return values[1] > 0 ? std::sqrt(values[0] / values[1]) : 0;
+}
+
+inline double root_mean_square(const Motion &motion, const Numbers &a)
+{
+  return root_mean_square(motion, a.size(), [&](std::size_t i) { return a[i]; });
 }
 
 /// result = x + span * v

@@ -17,14 +17,13 @@ struct StepControl {
 
   /// Estimates the local error of a step (Sommeijer, Shampine and Verwer 1998): root mean square
   /// over all points of 0.8 (start - end) + 0.4 dt (start_velocity + end_velocity). It vanishes for
-  /// positions quadratic in time. `scratch` is overwritten. Collective.
+  /// positions quadratic in time. Collective.
   static double error(const Motion &motion, double dt, const Numbers &start, const Numbers &end,
-                      const Numbers &start_velocity, const Numbers &end_velocity, Numbers &scratch)
+                      const Numbers &start_velocity, const Numbers &end_velocity)
   {
-    scratch.resize(start.size());
-    for (std::size_t i = 0; i < start.size(); ++i)
-      scratch[i] = 0.8 * (start[i] - end[i]) + 0.4 * dt * (start_velocity[i] + end_velocity[i]);
-    return root_mean_square(motion, scratch);
+    return root_mean_square(motion, start.size(), [&](std::size_t i) {
+      return 0.8 * (start[i] - end[i]) + 0.4 * dt * (start_velocity[i] + end_velocity[i]);
+    });
   }
 
   /// Time step that should meet the tolerance after one of dt had that error.
