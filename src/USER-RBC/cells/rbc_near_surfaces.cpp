@@ -171,7 +171,7 @@ void NearSurfaces::build(double range, double slack_of_ghosts, double stale)
 {
   ++build_count;
   allowed = slack_of_ghosts / 2;
-  built.hold(atom->x[0], atom->nlocal + atom->nghost);
+  built.hold(atom->nlocal > 0 ? atom->x[0] : nullptr, atom->nlocal);
   rbc::resize_tightly(cell_at, atom->nlocal + atom->nghost);
   for (std::size_t i = 0; i < cell_at.size(); ++i) cell_at[i] = cell_of(static_cast<int>(i));
   collect_triangles(longest_known_edge(range, slack_of_ghosts + stale));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "contact/displacement_extents.h"
+#include "contact/held_positions.h"
 #include "contact/linear_flow.h"
 
 #include <optional>
@@ -14,11 +15,7 @@ class RelativeMotion {
   /// Positions, three numbers for each point, from which displacements count.
   void hold(const double *x, int points, double near);
 
-  PlainVector held(int point) const
-  {
-    const double *const at = &held_[3 * std::size_t(point)];
-    return {at[0], at[1], at[2]};
-  }
+  PlainVector held(int point) const { return held_[point]; }
 
   /// Bounds of the difference of the displacements of any two points, less those of a flow that
   /// moves all of them: infinite if one is not a number.
@@ -39,12 +36,13 @@ class RelativeMotion {
 
  private:
   std::optional<SpatialBins> bins_;
-  std::vector<double> held_;
+  HeldPositions held_;
   std::vector<int> bin_;                                // of each point
   std::vector<DisplacementExtent> extents_, merged_;    // of each bin; with its neighbors
   std::vector<double> around_;                          // width of the latter
 
   bool find_extents(const double *x, const LinearFlow &flow);
+  double error() const;
 };
 
 }    // namespace rbc
