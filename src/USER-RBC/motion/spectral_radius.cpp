@@ -8,12 +8,12 @@ double SpectralRadius::estimate(Motion &motion, const Numbers &x, const Numbers 
                                 double size, Numbers &mode)
 {
   const std::size_t n = x.size();
-  Numbers &displaced = this->displaced(), &changed = this->changed();
-  displaced.resize(n);
+  Numbers &changed = this->changed();
   changed = velocity;
   double radius = 0;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     const double scale = size / root_mean_square(motion, mode);
+    Numbers &displaced = mode;    // until the next one is known
     for (std::size_t i = 0; i < n; ++i) displaced[i] = x[i] + scale * mode[i];
     motion.velocity(displaced, 0, changed);
     for (std::size_t i = 0; i < n; ++i) mode[i] = changed[i] - velocity[i];

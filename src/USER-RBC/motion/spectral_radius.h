@@ -10,7 +10,7 @@ namespace rbc {
 /// (Sommeijer, Shampine and Verwer, J. Comput. Appl. Math. 88 (1998) 315).
 class SpectralRadius {
  public:
-  /// Uses the last two of these.
+  /// Uses the last of these.
   explicit SpectralRadius(SharedWorkVectors work = std::make_shared<WorkVectors>()) :
       work_(std::move(work))
   {
@@ -37,8 +37,7 @@ class SpectralRadius {
  private:
   SharedWorkVectors work_;
 
-  Numbers &displaced() { return (*work_)[2]; }
-  Numbers &changed() { return (*work_)[3]; }
+  Numbers &changed() { return (*work_)[2]; }
 };
 
 }    // namespace rbc

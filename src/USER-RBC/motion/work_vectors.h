@@ -12,7 +12,7 @@ namespace rbc {
 /// are shared by users that work one at a time.
 class WorkVectors {
  public:
-  static constexpr int COUNT = 4;
+  static constexpr int COUNT = 3;
 
   Numbers &operator[](int n) { return vectors_[n]; }
 
