@@ -1,40 +1,14 @@
 #!/usr/bin/env bash
 # Installs the package of deb.sh in a new, minimal Debian below a temporary folder, runs a cell in
 # shear there and says how long each took. As root.
-#   usage: try_deb.sh [FILE.deb]
+#   usage: try_deb.sh [FILE.deb [SUITE]]     the suite that it is for, that of this machine if not given
 . "$(dirname "$0")/common.sh"
 
 package=${1:-$(ls -t "$BUILD"-deb/*.deb 2>/dev/null | head -n 1)}
 [ -f "$package" ] || fail "there is no package: bash scripts/deb.sh makes it"
-[ "$(id -u)" = 0 ] || fail "a new Debian can only be made as root"
-"$ROOT/scripts/dependencies.sh" debootstrap
+. "$ROOT/scripts/clean_debian.sh"
 
-suite=$(. /etc/os-release && echo "$VERSION_CODENAME")
-debian=$(mktemp -d)
-clean() {
-  umount "$debian/proc" "$debian/dev" 2>/dev/null || true
-  rm -rf --one-file-system "$debian" "$debian.log"
-}
-trap clean EXIT
-trap 'exit 1' HUP INT TERM
-
-# timed <what> <command ...>: runs it, with its output in a file that is shown where it fails.
-timed() {
-  local start=$SECONDS
-  "${@:2}" >"$debian.log" 2>&1 || fail "$1: $(tail -n 5 "$debian.log")"
-  say "$1: $((SECONDS - start)) s"
-}
-
-mapfile -t mpi < <(env | grep -E '^(OMPI|PRTE)_')    # as common.sh has it
-
-inside() {
-  chroot "$debian" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 \
-    DEBIAN_FRONTEND=noninteractive "${mpi[@]}" "$@"
-}
-
-timed "new Debian, $suite" debootstrap --variant=minbase "$suite" "$debian" "$(debian_archive)"
-mount -t proc proc "$debian/proc"
-mount --bind /dev "$debian/dev"
+new_debian "${2:-$(. /etc/os-release && echo "$VERSION_CODENAME")}"
 cp "$package" "$debian/root/user-rbc.deb"
 cat >"$debian/root/in.scene" <<'SCENE'
 variable        potentials getenv LAMMPS_POTENTIALS
