@@ -1,5 +1,5 @@
-# Shared by the scripts that try things in a new, minimal Debian below a temporary folder, which goes
-# when they end. Sourced after common.sh, as root.
+# Shared by the scripts that try things in a new, minimal Debian. It lies below a temporary folder and
+# goes when they end. Sourced after common.sh, as root.
 [ "$(id -u)" = 0 ] || fail "a new Debian can only be made as root"
 "$ROOT/scripts/dependencies.sh" debootstrap
 
@@ -31,7 +31,8 @@ start_sum() { sum=0 sum_cores=0; }
 say_sum() { say_times "$1" "$sum" "$sum_cores"; }
 start_sum
 
-mapfile -t variables < <(env | grep -E '^(OMPI_|PRTE_|HWLOC_|USER_RBC_JOBS=)')    # as common.sh has it
+# as common.sh has them
+mapfile -t variables < <(env | grep -E '^(OMPI_|PRTE_|HWLOC_|USER_RBC_JOBS=)')
 
 inside() {
   chroot "$debian" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 \

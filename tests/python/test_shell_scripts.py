@@ -32,6 +32,7 @@ class Machine(unittest.TestCase):
 
     def tool(self, name, script):
         path = self.folder / "bin" / name
+        path.unlink(missing_ok=True)    # never write through a link to the machine's own tool
         path.write_text(f"#!/bin/bash\n{script}\n")
         path.chmod(0o755)
 
@@ -99,6 +100,31 @@ class Machine(unittest.TestCase):
     def test_with_an_archive_that_is_cut_off(self):
         self.apt_get("source) echo cut off > lammps_1.orig.tar.gz ;;")
         self.fails("build.sh", USER_RBC_CACHE=str(self.folder / "tmp"))
+
+    def source_of(self, archive):
+        """Debian has a LAMMPS of this archive, which lammps.sh newest then has the source of."""
+        tree = self.folder / archive / "src"
+        tree.mkdir(parents=True)
+        (tree / "lammps.h").write_text(archive)
+        self.apt_get(f"source) case $* in *--print-uris*) echo \"'http' {archive} 1 SHA256:0\" ;; "
+                     f"*) tar -czf {archive} -C {self.folder / archive} . ;; esac ;;")
+        self.tool("cmake", 'for word; do [ "$last" != -B ] || mkdir -p "$word"; last=$word; done')
+        done = run(SCRIPTS / "lammps.sh", "newest", env={
+            "PATH": str(self.folder / "bin"), "TMPDIR": str(self.folder / "tmp"),
+            "USER_RBC_CACHE": str(self.folder / "cache"), "USER_RBC_OWN_LAMMPS": "1"})
+        self.assertEqual(done.returncode, 0, done.stdout)
+        shutil.rmtree(self.folder / archive)
+        self.assertEqual(list((self.folder / "tmp").iterdir()), [])
+        header = self.folder / "cache" / "lammps-newest" / "source" / "src" / "lammps.h"
+        return header.read_text(), done.stdout
+
+    def test_the_newest_is_fetched_when_debian_has_another(self):
+        first, second = "lammps_1.orig.tar.gz", "lammps_2.orig.tar.gz"
+        for archive, fetched in ((first, True), (first, False), (second, True)):
+            there, printed = self.source_of(archive)
+            self.assertEqual(there, archive)
+            self.assertEqual("fetching the LAMMPS newest" in printed, fetched, printed)
+            self.assertEqual("building LAMMPS newest" in printed, fetched, printed)
 
 
 class Benchmarks(unittest.TestCase):
