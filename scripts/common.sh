@@ -16,7 +16,8 @@ BUILD=${USER_RBC_BUILD:-$ROOT/build}
 JOBS=${USER_RBC_JOBS:-$(nproc)}
 # Debian's own interpreter: the modules come as Debian packages, and another python3 may be on the PATH.
 PYTHON=/usr/bin/python3
-export CCACHE_DIR=$CACHE/ccache
+# What is not in the compiler's cache goes to the compiler, not to its preprocessor before.
+export CCACHE_DIR=$CACHE/ccache CCACHE_DEPEND=1
 
 # Open MPI refuses root and too many ranks by default; containers and small test machines need both.
 # PRTE starts the ranks of Open MPI 5.

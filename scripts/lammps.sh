@@ -69,7 +69,8 @@ fi
 
 if [ "$LAMMPS_DEBIAN" = no ] && [ ! -f "$LAMMPS_BUILD/installed" ]; then
   say "building LAMMPS $LAMMPS_VERSION once into $LAMMPS_BUILD"
-  cmake -S "$LAMMPS_HOME/source/cmake" -B "$LAMMPS_BUILD" -G Ninja "${LAMMPS_OPTIONS[@]}"
+  cmake -S "$LAMMPS_HOME/source/cmake" -B "$LAMMPS_BUILD" -G Ninja "${LAMMPS_OPTIONS[@]}" \
+    -D CMAKE_PROJECT_lammps_INCLUDE="$ROOT/cmake/precompile_lammps.cmake"
   cmake --build "$LAMMPS_BUILD" -j "$JOBS"
   touch "$LAMMPS_BUILD/installed"
 fi

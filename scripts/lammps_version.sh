@@ -12,13 +12,13 @@ LAMMPS_DEBIAN=no
 [ -n "${USER_RBC_OWN_LAMMPS:-}" ] || ! grep -qs "^VERSION_CODENAME=$LAMMPS_SUITE\$" /etc/os-release ||
   LAMMPS_DEBIAN=yes
 
+# Packages are those that scenes and tests use.
 LAMMPS_OPTIONS=(
   -D CMAKE_BUILD_TYPE=RelWithDebInfo -D CMAKE_CXX_FLAGS_RELWITHDEBINFO=-O2
-  -D CMAKE_CXX_COMPILER_LAUNCHER=ccache
-  -D BUILD_SHARED_LIBS=yes -D BUILD_MPI=yes -D BUILD_OMP=no -D FFT=FFTW3
+  -D BUILD_SHARED_LIBS=yes -D BUILD_MPI=yes -D BUILD_OMP=no
   -D WITH_JPEG=no -D WITH_PNG=no -D WITH_GZIP=no -D WITH_FFMPEG=no -D WITH_CURL=no
 )
-for package in MOLECULE KSPACE PLUGIN RIGID EXTRA-FIX LATBOLTZ; do LAMMPS_OPTIONS+=(-D "PKG_$package=yes"); done
+for package in MOLECULE PLUGIN RIGID; do LAMMPS_OPTIONS+=(-D "PKG_$package=yes"); done
 
 LAMMPS_HOME=$CACHE/lammps-$LAMMPS_VERSION
 LAMMPS_BUILD=$LAMMPS_HOME/build-$(printf '%s\n' "${LAMMPS_OPTIONS[@]}" | md5sum | cut -c1-8)
