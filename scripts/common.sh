@@ -29,12 +29,25 @@ export OMP_NUM_THREADS=1
 # MPI looks for graphics cards by way of X server :0 and ends with it; that may be one for pictures.
 export HWLOC_COMPONENTS=-gl
 
-# The Debian archive that apt of this machine takes its release from.
-debian_archive() {
-  apt-get indextargets --format '$(RELEASE) $(COMPONENT) $(REPO_URI)' 'Created-By: Packages' |
-    awk -v codename="$(. /etc/os-release && echo "$VERSION_CODENAME")" \
-      '$1 == codename && $2 == "main" {print $3; exit}'
+# The release of Debian that this machine has: bookworm, trixie, sid. The files of sid name the
+# release to come, as that one's own do: apt knows which of them it is.
+debian_release() {
+  if grep -qs sid /etc/debian_version && [ -n "$(archive_of sid)" ]; then
+    echo sid
+  else
+    (. /etc/os-release && echo "${VERSION_CODENAME:-}") 2>/dev/null || true
+  fi
 }
+
+# archive_of <release>: the Debian archive that apt of this machine takes it from.
+archive_of() {
+  apt-get indextargets --format '$(COMPONENT) $(REPO_URI) $(RELEASE) $(CODENAME)' \
+    'Created-By: Packages' |
+    awk -v name="$1" '{if ($3 == "unstable") $3 = "sid"}
+      $1 == "main" && ($3 == name || $4 == name) {print $2; exit}'
+}
+
+debian_archive() { archive_of "$(debian_release)"; }
 
 # Ends before anything is built unless the arguments of a benchmark say where its results go. Its
 # Python script reads them.

@@ -11,7 +11,7 @@ export USER_RBC_BUILD=$BUILD-deb
 
 say "building USER-RBC with LAMMPS $LAMMPS_VERSION for any processor into $USER_RBC_BUILD"
 cmake -S "$ROOT" -B "$USER_RBC_BUILD" -G Ninja -D LAMMPS_VERSION="$LAMMPS_VERSION" \
-  -D RBC_NATIVE=OFF -D CPACK_DEBIAN_PACKAGE_RELEASE="deb$(. /etc/os-release && echo "$VERSION_ID")"
+  -D RBC_NATIVE=OFF -D CPACK_DEBIAN_PACKAGE_RELEASE="deb$(. /etc/os-release && echo "${VERSION_ID:-sid}")"
 cmake --build "$USER_RBC_BUILD" -j "$JOBS" --target lmp_rbc rbcplugin
 "$ROOT/scripts/html.sh"
 

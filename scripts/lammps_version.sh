@@ -9,7 +9,7 @@ esac
 # Where this machine's Debian is of that suite its liblammps is the same version: yes.
 # USER_RBC_OWN_LAMMPS=1 builds one nonetheless.
 LAMMPS_DEBIAN=no
-[ -n "${USER_RBC_OWN_LAMMPS:-}" ] || ! grep -qs "^VERSION_CODENAME=$LAMMPS_SUITE\$" /etc/os-release ||
+[ -n "${USER_RBC_OWN_LAMMPS:-}" ] || [ "$(debian_release)" != "$LAMMPS_SUITE" ] ||
   LAMMPS_DEBIAN=yes
 
 # Packages are those that scenes and tests use.

@@ -8,7 +8,7 @@ package=${1:-$(ls -t "$BUILD"-deb/*.deb 2>/dev/null | head -n 1)}
 [ -f "$package" ] || fail "there is no package: bash scripts/deb.sh makes it"
 . "$ROOT/scripts/clean_debian.sh"
 
-new_debian "${2:-$(. /etc/os-release && echo "$VERSION_CODENAME")}"
+new_debian "${2:-$(debian_release)}"
 cp "$package" "$debian/root/user-rbc.deb"
 cat >"$debian/root/in.scene" <<'SCENE'
 variable        potentials getenv LAMMPS_POTENTIALS

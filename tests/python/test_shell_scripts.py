@@ -40,7 +40,7 @@ class Machine(unittest.TestCase):
         """All packages are there, and apt-get knows an archive."""
         self.tool("dpkg-query", 'echo "install ok installed"')
         self.tool("apt-get", 'case $1 in indextargets) . /etc/os-release && '
-                             f'echo "$VERSION_CODENAME main {ARCHIVE}" ;; {case} esac')
+                             f'echo "main {ARCHIVE} $VERSION_CODENAME" ;; {case} esac')
 
     def fails(self, script, *words, **environment):
         """What a script says that ends with an error."""
