@@ -14,7 +14,7 @@ def row_of(line):
     words = [word for name, value in line.items() if name not in NOT_VARIED
              for word in value.split(":")]
     error = 100 * float(line["error_below"]) / abs(float(line["scale"]))
-    numbers = (f"{float(line['value']):.4g}", f"{error:.2g} %",
+    numbers = (f"{float(line['value']):.4g}", f"{float(f'{error:.2g}'):g} %",
                f"{float(line['core_seconds']):.2g}")
     return "| " + " | ".join([*words, *numbers]) + " |"
 
