@@ -34,7 +34,7 @@ install(DIRECTORY potentials DESTINATION ${data_folder} FILES_MATCHING
   PATTERN "*.mol" PATTERN "*.material" PATTERN "*.blood" PATTERN "*.py" PATTERN README.md
   PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY scripts DESTINATION ${data_folder} FILES_MATCHING
-  PATTERN "*.py" PATTERN __pycache__ EXCLUDE)
+  PATTERN "*.py" PATTERN __pycache__ EXCLUDE PATTERN "validation*.py" EXCLUDE)
 # below /usr Python finds the package rbc there
 rbc_install_link(lib/python3/dist-packages rbc ../../../${data_folder}/scripts/rbc)
 file(GLOB scenes RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
