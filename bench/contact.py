@@ -36,7 +36,8 @@ variable        j loop 8
 label           next_j
 variable        k loop 8
 label           next_k
-rbc/create      rbc single $(v_wide*(v_i-0.5)) $(v_wide*(v_j-0.5)) $(v_high*(v_k-0.5)) rotate 3 $(v_i-4.2) $(v_j-3.1) 0
+rbc/create      rbc single $(v_wide*(v_i-0.5)) $(v_wide*(v_j-0.5)) $(v_high*(v_k-0.5)) &
+                rotate 3 $(v_i-4.2) $(v_j-3.1) 0
 next            k
 jump            SELF next_k
 next            j

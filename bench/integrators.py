@@ -41,9 +41,10 @@ rbc/create      rbc single 6 6 6 rotate 45 0 1 0
 neighbor        2.0 bin
 variable        U equal {rate}*1e-6*6
 variable        minus equal -v_U
-fix             membrane all rbc/membrane rbc mooney-rivlin ${{C1}} ${{C2}} ${{h}} bending ${{kappa}} &
-                area 0 {area} volume yes
-fix             flow all rbc/fluid dx 0.5 viscosity ${{viscosity}} density ${{density}} wall zlo ${{minus}} 0 0 wall zhi ${{U}} 0 0
+fix             membrane all rbc/membrane rbc mooney-rivlin ${{C1}} ${{C2}} ${{h}} &
+                bending ${{kappa}} area 0 {area} volume yes
+fix             flow all rbc/fluid dx 0.5 viscosity ${{viscosity}} density ${{density}} &
+                wall zlo ${{minus}} 0 0 wall zhi ${{U}} 0 0
 fix             ib all rbc/ib flow kernel peskin4 integrator {integrator} courant 4 sheets no
 compute         cell all rbc/cell
 thermo_style    custom step time f_membrane

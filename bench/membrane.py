@@ -29,7 +29,8 @@ SCRIPT = """
     molecule   rbc %(potentials)s/rbc_%(vertices)d.mol
     rbc/create rbc number 8 seed 4711 overlap 0.5
     neighbor   0.8 bin
-    fix        membrane all rbc/membrane rbc mooney-rivlin ${C1} ${C2} ${h} bending ${kappa} %(bending)s volume %(volume)s
+    fix        membrane all rbc/membrane rbc mooney-rivlin ${C1} ${C2} ${h} &
+               bending ${kappa} %(bending)s volume %(volume)s
     fix        flow all rbc/fluid grid 16 16 16 viscosity ${viscosity} density ${density}
     fix        ib all rbc/ib flow kernel peskin4 integrator euler
     timestep   1

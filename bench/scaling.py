@@ -29,8 +29,8 @@ FLUID = """
     create_box 1 box
     mass       1 1
     timestep   1
-    fix        flow all rbc/fluid grid 128 128 128 viscosity 1.2 density 1 inertia unsteady wall zlo 0 0 0 &
-               wall zhi 0.001 0 0
+    fix        flow all rbc/fluid grid 128 128 128 viscosity 1.2 density 1 inertia unsteady &
+               wall zlo 0 0 0 wall zhi 0.001 0 0
     thermo     1000
     run        2
     run        %(steps)d\n"""
@@ -48,8 +48,8 @@ SUSPENSION = """
     neighbor   0.8 bin
     fix        membrane all rbc/membrane rbc mooney-rivlin ${C1} ${C2} ${h} &
                bending ${kappa} volume yes
-    fix        flow all rbc/fluid grid 64 64 64 viscosity ${viscosity} density ${density} inertia unsteady &
-               wall zlo -0.0012 0 0 wall zhi 0.0012 0 0
+    fix        flow all rbc/fluid grid 64 64 64 viscosity ${viscosity} density ${density} &
+               inertia unsteady wall zlo -0.0012 0 0 wall zhi 0.0012 0 0
     fix        ib all rbc/ib flow kernel peskin4
     timestep   100
     thermo     1000

@@ -1,5 +1,6 @@
-// What the sanitizers of an executable do unless ASAN_OPTIONS or UBSAN_OPTIONS say otherwise. MPI leaves memory behind
-// at its end. Containers that LAMMPS, which is not instrumented, has changed look as if they had overflowed.
+// What the sanitizers of an executable do unless ASAN_OPTIONS or UBSAN_OPTIONS say otherwise. MPI
+// leaves memory behind at its end. Containers that LAMMPS, which is not instrumented, has changed
+// look as if they had overflowed.
 
 extern "C" const char *__asan_default_options();
 extern "C" const char *__ubsan_default_options();

@@ -170,16 +170,20 @@ def number(kind, lowest, highest=math.inf):
 
 
 POSITIVE = number(float, 0)
+FREQUENCY = dict(type=number(int, 1), metavar="F",
+                 help="edges per icosahedral edge: 10 F^2 + 2 vertices")
 
 
-def parse(arguments):
+def options():
+    """Of all shapes."""
     files = argparse.ArgumentParser(add_help=False)
     files.add_argument("-o", "--output", metavar="FILE", help="molecule file (default: none)")
-    files.add_argument("--surface", metavar="FILE", help="the same surface as .stl, .ply, .off or .vtp")
-    files.add_argument("--citation", metavar="TEXT", help="where the shape comes from, for the file's first line")
+    files.add_argument("--surface", metavar="FILE",
+                       help="the same surface as .stl, .ply, .off or .vtp")
+    files.add_argument("--citation", metavar="TEXT",
+                       help="where the shape comes from, for the file's first line")
     geodesic = argparse.ArgumentParser(add_help=False)
-    frequency = dict(type=number(int, 1), metavar="F", help="edges per icosahedral edge: 10 F^2 + 2 vertices")
-    geodesic.add_argument("-f", "--frequency", required=True, **frequency)
+    geodesic.add_argument("-f", "--frequency", required=True, **FREQUENCY)
     smooth = argparse.ArgumentParser(add_help=False)
     smooth.add_argument("--match-volume", action="store_true",
                         help="scale so that the polyhedron has the smooth shape's volume")
@@ -189,41 +193,57 @@ def parse(arguments):
         "--radius", type=POSITIVE, default=1.0, help="radius (default 1)")
     shape.add_parser("disc", parents=[geodesic, smooth, files], help="biconcave disc").add_argument(
         "--diameter", type=POSITIVE, default=7.82, help="diameter (default 7.82)")
+    add_spheroid(shape.add_parser("spheroid", parents=[smooth, files],
+                                  help="oblate or prolate spheroid"))
+    add_sickle(shape.add_parser("sickle", parents=[geodesic, smooth, files],
+                                help="ellipsoid bent along its long axis"))
+    add_mesh(shape.add_parser("mesh", parents=[files], help="a surface from a file"))
+    return parser
 
-    of = shape.add_parser("spheroid", parents=[smooth, files], help="oblate or prolate spheroid")
-    form = of.add_mutually_exclusive_group(required=True)
+
+def add_spheroid(parser):
+    form = parser.add_mutually_exclusive_group(required=True)
     form.add_argument("--axis-ratio", type=POSITIVE, metavar="Q",
-                      help="length of the axis over the diameter across it: below 1 oblate, above prolate")
+                      help="length of the axis over the diameter across it: below 1 oblate, above "
+                      "prolate")
     form.add_argument("--reduced-volume", type=number(float, 0, 1), metavar="V",
                       help="volume over that of the sphere of the same area; oblate")
-    of.add_argument("--prolate", action="store_true", help="the prolate one of that reduced volume")
-    size = of.add_mutually_exclusive_group(required=True)
+    parser.add_argument("--prolate", action="store_true",
+                        help="the prolate one of that reduced volume")
+    size = parser.add_mutually_exclusive_group(required=True)
     size.add_argument("--area", type=POSITIVE, metavar="A", help="area of the polyhedron")
     size.add_argument("--diameter", type=POSITIVE, metavar="D", help="diameter across the axis")
     size.add_argument("--like", metavar="FILE",
-                      help="template of a disc or sphere, with whose area, triangles and order of vertices")
-    of.add_argument("-f", "--frequency", **frequency)
+                      help="template of a disc or sphere, with whose area, triangles and order of "
+                      "vertices")
+    parser.add_argument("-f", "--frequency", **FREQUENCY)
 
-    of_sickle = shape.add_parser("sickle", parents=[geodesic, smooth, files],
-                                 help="ellipsoid bent along its long axis")
+
+def add_sickle(parser):
     for name, default in (("length", 15.0), ("width", 4.0), ("thickness", 3.0)):
-        of_sickle.add_argument("--" + name, type=POSITIVE, default=default,
-                               help=f"axis of the ellipsoid (default {default:g})")
-    of_sickle.add_argument("--bend", type=number(float, 0, 300), default=90.0,
-                           help="angle of the arc of the long axis, degrees (default 90)")
+        parser.add_argument("--" + name, type=POSITIVE, default=default,
+                            help=f"axis of the ellipsoid (default {default:g})")
+    parser.add_argument("--bend", type=number(float, 0, 300), default=90.0,
+                        help="angle of the arc of the long axis, degrees (default 90)")
 
-    of_mesh = shape.add_parser("mesh", parents=[files], help="a surface from a file")
-    of_mesh.add_argument("file", help=".stl, .ply, .off, .vtp or .mol")
-    scale = of_mesh.add_mutually_exclusive_group()
+
+def add_mesh(parser):
+    parser.add_argument("file", help=".stl, .ply, .off, .vtp or .mol")
+    scale = parser.add_mutually_exclusive_group()
     scale.add_argument("--scale", type=POSITIVE, metavar="S", help="factor on all lengths")
     scale.add_argument("--area", type=POSITIVE, metavar="A", help="scale to this area")
     scale.add_argument("--volume", type=POSITIVE, metavar="V", help="scale to this volume")
-    scale.add_argument("--size", type=POSITIVE, metavar="D", help="scale to this longest side along x, y or z")
+    scale.add_argument("--size", type=POSITIVE, metavar="D",
+                       help="scale to this longest side along x, y or z")
 
+
+def parse(arguments):
+    parser = options()
     args = parser.parse_args(arguments)
     if args.shape == "spheroid":
         if args.like and args.frequency:
-            parser.error("spheroid --like takes the frequency from the template: leave out --frequency")
+            parser.error("spheroid --like takes the frequency from the template: leave out "
+                         "--frequency")
         if not args.like and not args.frequency:
             parser.error("spheroid needs --frequency")
         if args.prolate and args.axis_ratio:

@@ -200,7 +200,8 @@ def plot(rows, path):
             for source, (rt, rd) in references(float(row["Ca"])).items():
                 left.plot(rt, rd, markers.get(source, "."), color=line.get_color(), mfc="none",
                           ms=5)
-    left.set(xlabel="shear rate × time", ylabel="Taylor deformation D", xlim=(0, 5), ylim=(0, 0.75))
+    left.set(xlabel="shear rate × time", ylabel="Taylor deformation D", xlim=(0, 5),
+             ylim=(0, 0.75))
     for source, marker in markers.items():
         left.plot([], [], marker, color="0.4", mfc="none", ms=5, label=source)
     left.legend(fontsize=7, ncol=2, loc="upper left")

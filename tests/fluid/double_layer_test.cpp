@@ -361,8 +361,8 @@ struct Slab {
   }
 };
 
-/// Shear flow of two viscosities: the stress is the same everywhere. On the grid, too, where kernels
-/// meet neither each other nor the plates.
+/// Shear flow of two viscosities: the stress is the same everywhere. On the grid, too, where
+/// kernels meet neither each other nor the plates.
 TEST(DoubleLayer, SlabInShear)
 {
   for (KernelKind kernel : kernels)

@@ -46,8 +46,8 @@ struct Scene {
     return ghost_layers + (kind == MarkerKind::sheets ? SheetVelocity::layers : 0);
   }
 
-  /// body_force(c, x) is the force density; velocity(b) is that of a body, or velocity(b, x) that of
-  /// a marker of it.
+  /// body_force(c, x) is the force density; velocity(b) is that of a body, or velocity(b, x) that
+  /// of a marker of it.
   template <typename Force, typename Velocity>
   RigidSurface::Outcome solve(Force body_force, Velocity velocity, double time = 0)
   {

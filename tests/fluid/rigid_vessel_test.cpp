@@ -95,7 +95,8 @@ TEST(RigidVessel, PoiseuilleFlow)
   }
 }
 
-/// Sheets need no offset, whether there is flow on one side or on both. Points cannot do the second.
+/// Sheets need no offset, whether there is flow on one side or on both. Points cannot do the
+/// second.
 TEST(RigidVessel, PoiseuilleFlowBetweenSheets)
 {
   for (KernelKind kernel : {KernelKind::peskin4, KernelKind::roma3})

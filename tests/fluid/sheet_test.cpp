@@ -168,9 +168,9 @@ Strain straining(KernelKind kernel, double radius)
   return {normal / normal_flow / radius, (all - normal) / (all_flow - normal_flow) / radius};
 }
 
-/// Without the fourth-order term, and C_2 = 0.56 in its place, normal velocities with roma3 are 10 %
-/// too large and tangential ones 9 % too small at a radius of 4 cells. The limit, which images in the array change, is
-/// extrapolated.
+/// Without the fourth-order term, and C_2 = 0.56 in its place, normal velocities with roma3 are
+/// 10 % too large and tangential ones 9 % too small at a radius of 4 cells. The limit, which images
+/// in the array change, is extrapolated.
 TEST(Sheet, StrainingSphere)
 {
   for (KernelKind kernel : kernels) {

@@ -9,39 +9,50 @@ NUMBERS = ["0", "-1", "1", "2", "3", "1e-300", "1e300", "-1e300", "1e-9", "1e9",
            "-inf", "0.5", "1e", "2147483647", "2147483648", "-2147483648", "9223372036854775807",
            "18446744073709551616", "1.5", "0x10", "1e308", "5e-324", "٣", "", "INF", "EDGE", "NULL"]
 WORDS = """
-    adapt adhesive aggregate all area attempts auto ab2 bending body c_cell c_none c_cell[1] courant coupled crease
-    density dihedral direct dx elastic euler f_flow f_flow[1] f_flow[99] flow grid helfrich hematocrit inertia
-    inside integrator interior kernel maxiter mean membrane midpoint mix molecule mooney-rivlin neo-hookean no none
-    number offset order overlap peskin4 projection rbc random reference region repulsive rkc roma3 rotate scale
-    scheme seed self sheets shift single skalak slip spacing stretch stress-free swell tension thinning tol type
-    unsteady unwrap v_none v_speed vessel velocity virial viscosity volume wall yes zhi zlo convective * ** 1*2 2* ''
+    adapt adhesive aggregate all area attempts auto ab2 bending body c_cell c_none c_cell[1] courant
+    coupled crease density dihedral direct dx elastic euler f_flow f_flow[1] f_flow[99] flow grid
+    helfrich hematocrit inertia inside integrator interior kernel maxiter mean membrane midpoint mix
+    molecule mooney-rivlin neo-hookean no none number offset order overlap peskin4 projection rbc
+    random reference region repulsive rkc roma3 rotate scale scheme seed self sheets shift single
+    skalak slip spacing stretch stress-free swell tension thinning tol type unsteady unwrap v_none
+    v_speed vessel velocity virial viscosity volume wall yes zhi zlo convective * ** 1*2 2* ''
     """.split()
 LINES = """
-    boundary p p f|boundary f f f|boundary s p p|boundary p p p|newton off|newton on off|processors 1 1 *
-    processors * 1 1|atom_style full|atom_style atomic|atom_style bond|units lj|units si|dimension 2|special_bonds lj 1 1 1
-    atom_modify map hash|atom_modify sort 0 0|neighbor 0 bin|neighbor 5 nsq|comm_style tiled|comm_modify mode multi
-    comm_modify cutoff 0.1|balance 1.0 shift xyz 5 1.0|balance 1.0 rcb|run 0|run 2|run 2 pre no|run 2 every 1 "print 1"
-    run 2 post no|reset_timestep 0|reset_timestep 100000|delete_atoms group all|delete_atoms random count 5 yes all NULL 7
-    delete_atoms group all mol yes|displace_atoms all move 100 0 0|displace_atoms all random 1 1 1 5|velocity all create 300 5
-    velocity all set NULL 1 0|change_box all x scale 0.5|change_box all x scale 1.5 remap|change_box all z delta 0 1
-    change_box all triclinic|change_box all boundary p p f|set group all mol 1|set group all type 1|set group all image 1 0 0
-    set atom 1 mol 5|group cells clear|group all2 type 1|group dyn dynamic all every 1|mass * 1|mass 1 0.5|timestep 0
-    timestep 1e-9|timestep 1e6|timestep -1|fix nve all nve|fix f all setforce 0 0 0|fix add all addforce 1 0 0
-    fix bal all balance 1 1.0 shift xyz 5 1.0|fix d all deform 1 x erate 0.01|fix npt all press/berendsen iso 1 1 1
-    fix freeze all move linear 0 0 0|fix halt all halt 1 v_none > 0|fix rig all rigid molecule|fix e all evaporate 1 1 box 5
-    unfix flow|unfix ib|unfix membrane|unfix wall|uncompute cell|write_restart w.restart|write_data w.data|read_restart w.restart
-    read_data w.data add append|write_dump all atom w.dump|read_dump w.dump 0 x y z|rerun w.dump dump x y z|clear|restart 1 r.*
-    thermo_modify lost ignore|thermo_modify lost warn|thermo_modify norm yes|thermo 1|thermo_style multi|minimize 0 0 2 2
-    fix_modify membrane energy yes virial yes|fix_modify flow energy yes|fix_modify ib respa 1|run_style respa 2 2
-    run_style verlet|neigh_modify every 1 delay 0 check no|neigh_modify exclude group all all|neigh_modify once yes
-    compute c2 all rbc/cell|compute a2 all rbc/aggregate 1.0 area 0.5|fix s2 all rbc/vtk 1 s.*.vtp|fix s3 all rbc/vtk 1 s.*.pvtp
-    fix ib2 all rbc/ib flow|fix m2 all rbc/membrane rbc skalak 1 1|fix flow2 all rbc/fluid grid 8 8 8 viscosity 1 density 1
-    fix w2 all rbc/wall flow|rbc/surface vessel type 1 spacing 1|rbc/surface box type 1 spacing 2|rbc/create rbc single 0 0 0
-    rbc/create rbc number 1 seed 3 attempts 50|region r2 rbc/mesh vessel.stl|region r3 rbc/mesh cell.mol|region vessel delete
-    pair_style rbc/jkr 0.6 self yes|pair_style zero 1.0|pair_style none|pair_coeff * * repulsive 1 0.3|pair_coeff * * adhesive 1 1e-3 0.3
-    reset_atoms id|reset_atoms mol all|reset_atoms image all|replicate 2 1 1|dump g all grid 1 g.* f_flow:grid:velocity[9]
-    dump a all custom 1 a.* id f_membrane f_ib c_cell|fix g all ave/grid 1 1 1 4 4 4 vx|molecule rbc cell.mol scale 0.001
-    molecule rbc cell.mol scale 100|molecule rbc2 cell.mol|fix ag all ave/time 1 2 2 c_agg[*] mode vector ave running
+    boundary p p f|boundary f f f|boundary s p p|boundary p p p|newton off|newton on off
+    processors 1 1 *|processors * 1 1|atom_style full|atom_style atomic|atom_style bond|units lj
+    units si|dimension 2|special_bonds lj 1 1 1|atom_modify map hash|atom_modify sort 0 0
+    neighbor 0 bin|neighbor 5 nsq|comm_style tiled|comm_modify mode multi|comm_modify cutoff 0.1
+    balance 1.0 shift xyz 5 1.0|balance 1.0 rcb|run 0|run 2|run 2 pre no|run 2 every 1 "print 1"
+    run 2 post no|reset_timestep 0|reset_timestep 100000|delete_atoms group all
+    delete_atoms random count 5 yes all NULL 7|delete_atoms group all mol yes
+    displace_atoms all move 100 0 0|displace_atoms all random 1 1 1 5|velocity all create 300 5
+    velocity all set NULL 1 0|change_box all x scale 0.5|change_box all x scale 1.5 remap
+    change_box all z delta 0 1|change_box all triclinic|change_box all boundary p p f
+    set group all mol 1|set group all type 1|set group all image 1 0 0|set atom 1 mol 5
+    group cells clear|group all2 type 1|group dyn dynamic all every 1|mass * 1|mass 1 0.5|timestep 0
+    timestep 1e-9|timestep 1e6|timestep -1|fix nve all nve|fix f all setforce 0 0 0
+    fix add all addforce 1 0 0|fix bal all balance 1 1.0 shift xyz 5 1.0
+    fix d all deform 1 x erate 0.01|fix npt all press/berendsen iso 1 1 1
+    fix freeze all move linear 0 0 0|fix halt all halt 1 v_none > 0|fix rig all rigid molecule
+    fix e all evaporate 1 1 box 5|unfix flow|unfix ib|unfix membrane|unfix wall|uncompute cell
+    write_restart w.restart|write_data w.data|read_restart w.restart|read_data w.data add append
+    write_dump all atom w.dump|read_dump w.dump 0 x y z|rerun w.dump dump x y z|clear|restart 1 r.*
+    thermo_modify lost ignore|thermo_modify lost warn|thermo_modify norm yes|thermo 1
+    thermo_style multi|minimize 0 0 2 2|fix_modify membrane energy yes virial yes
+    fix_modify flow energy yes|fix_modify ib respa 1|run_style respa 2 2|run_style verlet
+    neigh_modify every 1 delay 0 check no|neigh_modify exclude group all all|neigh_modify once yes
+    compute c2 all rbc/cell|compute a2 all rbc/aggregate 1.0 area 0.5|fix s2 all rbc/vtk 1 s.*.vtp
+    fix s3 all rbc/vtk 1 s.*.pvtp|fix ib2 all rbc/ib flow|fix m2 all rbc/membrane rbc skalak 1 1
+    fix flow2 all rbc/fluid grid 8 8 8 viscosity 1 density 1|fix w2 all rbc/wall flow
+    rbc/surface vessel type 1 spacing 1|rbc/surface box type 1 spacing 2|rbc/create rbc single 0 0 0
+    rbc/create rbc number 1 seed 3 attempts 50|region r2 rbc/mesh vessel.stl
+    region r3 rbc/mesh cell.mol|region vessel delete|pair_style rbc/jkr 0.6 self yes
+    pair_style zero 1.0|pair_style none|pair_coeff * * repulsive 1 0.3
+    pair_coeff * * adhesive 1 1e-3 0.3|reset_atoms id|reset_atoms mol all|reset_atoms image all
+    replicate 2 1 1|dump g all grid 1 g.* f_flow:grid:velocity[9]
+    dump a all custom 1 a.* id f_membrane f_ib c_cell|fix g all ave/grid 1 1 1 4 4 4 vx
+    molecule rbc cell.mol scale 0.001|molecule rbc cell.mol scale 100|molecule rbc2 cell.mol
+    fix ag all ave/time 1 2 2 c_agg[*] mode vector ave running
     """
 
 

@@ -23,8 +23,10 @@ create_box      1 box angle/types 1
 molecule        rbc {POTENTIALS}/rbc_162.mol
 rbc/create      rbc hematocrit 0.4 seed 4711
 neighbor        0.8 bin
-fix             mem all rbc/membrane rbc mooney-rivlin 0.257 0.0257 0.01 bending 2.0e-4 area 1.0 0.05
-fix             flow all rbc/fluid dx 0.8 viscosity 1.5 density 1.025 wall zlo -0.0012 0 0 wall zhi 0.0012 0 0
+fix             mem all rbc/membrane rbc mooney-rivlin 0.257 0.0257 0.01 bending 2.0e-4 &
+                area 1.0 0.05
+fix             flow all rbc/fluid dx 0.8 viscosity 1.5 density 1.025 &
+                wall zlo -0.0012 0 0 wall zhi 0.0012 0 0
 fix             ib all rbc/ib flow kernel peskin4 integrator rkc auto
 compute         cell all rbc/cell
 thermo_style    custom step f_mem evdwl c_cell[1][7]

@@ -342,7 +342,8 @@ fix         sizes all ave/time 1 1 1 c_agg[*] file sizes.dat
 fix         classes all ave/time 1 1 1 c_agg[*] mode vector file classes.dat
 fix         members all ave/time 1 1 1 c_member mode vector file member.dat
 fix         ids all ave/histo 1 1 1 0.5 12.5 12 c_agg mode vector kind peratom file ids.dat ave one
-fix         shares all ave/histo 1 1 1 0 1 4 c_agg[3] mode vector kind global file shares.dat ave one
+fix         shares all ave/histo 1 1 1 0 1 4 c_agg[3] mode vector kind global &
+            file shares.dat ave one
 fix         out all rbc/vtk 1 cells.*.vtp aggregate agg"""
         for ranks in (1, 2, 4):
             with self.subTest(ranks=ranks):

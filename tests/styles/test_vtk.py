@@ -252,7 +252,8 @@ run         0
 molecule    large {SHAPE} scale 1.05
 rbc/create  large single 6 6 6
 {MEMBRANE}
-fix         flow all rbc/fluid dx 0.75 viscosity 1.5 density 1.025 inertia none wall zlo 0 0 0 wall zhi 4 0 0
+fix         flow all rbc/fluid dx 0.75 viscosity 1.5 density 1.025 inertia none &
+            wall zlo 0 0 0 wall zhi 4 0 0
 fix         ib all rbc/ib flow
 fix         out all rbc/vtk 2 cells.*.vtp
 timestep    0.01
