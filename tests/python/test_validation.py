@@ -37,6 +37,11 @@ class Page(unittest.TestCase):
             self.assertIn(f"<examples/{name}/README:Error against run time>`\n     - {{converge"
                           f"[{name}].setting}}\n", self.template)
 
+    def test_the_cost_in_the_readme_is_that_of_the_table(self):
+        text = (ROOT / "README.md").read_text(encoding="utf-8")
+        self.assertIn(f"| [{validation_figures.cost().fine_cell:2} core s](doc/validation.rst) |",
+                      text)
+
     def test_tests_that_it_names_exist(self):
         patterns = re.findall(r"``ctest -R '?([^'`]+)'?``", self.text)
         self.assertGreater(len(patterns), 10)
