@@ -139,7 +139,7 @@ def measured(arguments, name):
     subsets = {f"covered_by_any_{count}": "{} of {}".format(*covered_by(rows, varied, exact, count))
                for count in (2, 3)}
     return {"case": name, "known_order": case.order, "order": found, "known_limit": f"{exact:.6g}",
-            "limit": limit[1], "settings": len(rows),
+            "limit": limit[1] if limit else "-", "settings": len(rows),
             "covered": sum(ratio >= 1 for ratio in ratios),
             "least_ratio": f"{min(ratios):.3g}", "largest_ratio": f"{max(ratios):.3g}",
             **subsets,

@@ -227,6 +227,13 @@ def label(changes, setting):
     return " ".join(f"{one.title}={one.word(n)}" for one, n in zip(changes, setting))
 
 
+def folder_name(changes, setting):
+    """As dx-0.5_shape-rbc_642, of characters that all file systems and scp take."""
+    words = [f"{name}-{value}" for one, n in zip(changes, setting)
+             for name, value in zip(one.names, one.values[n])]
+    return re.sub(r"[^\w.+-]", "_", "_".join(words), flags=re.ASCII).rstrip(".")
+
+
 def printed_by(arguments, name, folder, variables):
     """What a run prints and its core seconds; those of the run before if nothing changed."""
     record = {"script": hashlib.sha256((folder / name).read_bytes()).hexdigest(),
@@ -254,9 +261,11 @@ def run(arguments, script, changes, setting):
     """The Run of a setting; it says why one failed."""
     name = label(changes, setting)
     print(f"{name} ...", end=" ", flush=True)
-    folder = arguments.output / name.replace("/", "_").replace(" ", "_")
+    folder = arguments.output / folder_name(changes, setting)
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / script.path.name).write_text(script.measuring(arguments.measure), encoding="utf-8")
+    often = arguments.take == "series" and script.can_print_often(arguments.measure)
+    (folder / script.path.name).write_text(script.measuring(arguments.measure, often),
+                                           encoding="utf-8")
     variables = {**script.folders(), **dict(arguments.set)}
     for one, n in zip(changes, setting):
         variables.update(zip(one.names, one.values[n]))
@@ -323,7 +332,7 @@ def main():
     for n, measure in enumerate(arguments.measure):
         try:
             analyses.append(converge_report.Analysis(
-                measure, changes, done, *fitted(done, changes, 2 + n, arguments)))
+                measure, arguments.take, changes, done, *fitted(done, changes, 2 + n, arguments)))
         except run_measures.TooShort as problem:
             raise SystemExit(f"{measure}: {problem}") from None
     converge_report.report(analyses, arguments)

@@ -11,6 +11,8 @@ import numpy as np  # noqa: E402
 from matplotlib.ticker import LogLocator, NullLocator  # noqa: E402
 import richardson  # noqa: E402
 
+DOUBLED = 2       # coarsest over finest from which on an order shows well
+MUCH = 0.1        # of an error or of the differences of values: noise that is worth a word
 WORTH_IT = 0.9    # of the core seconds of the best run: a combination that is not run is named
 
 
@@ -24,14 +26,15 @@ class Analysis:
     """Of one measure: values and noise by setting, and a fit for each that is varied, by its place,
     with the settings that are in it."""
 
-    def __init__(self, measure, changes, runs, values, noise, fits):
-        self.measure, self.changes, self.fits = measure, changes, fits
+    def __init__(self, measure, take, changes, runs, values, noise, fits):
+        self.measure, self.take, self.changes, self.fits = measure, take, changes, fits
         self.values, self.noise = values, noise
         self.seconds = {run.setting: run.seconds for run in runs}
         self.finest = tuple(len(one.values) - 1 for one in changes)
         base = values[self.finest]
         self.limit = base + sum((fit.limit - base for _, fit in fits.values()), 0 * base)
         self.scale = float(richardson.size(base))
+        self.has_limit = not any(has_no_order(fit) for _, fit in fits.values())
 
     def part(self, i, n):
         """The error that setting n of what is varied makes: offset (m,), what the fit adds to its
@@ -54,7 +57,9 @@ class Analysis:
         return Error(signed(offset), float(max(richardson.size(offset) + sum(more), sum(bounds))))
 
     def error(self, setting):
-        return self.of(setting, self.values[setting] - self.limit)
+        """Where no order is known there is no limit that a value could be off by a number."""
+        error = self.of(setting, self.values[setting] - self.limit)
+        return error if self.has_limit else error._replace(offset=float("nan"))
 
     def predicted(self):
         """{setting: (Error, seconds)} of combinations that were not run: errors add, shares of the
@@ -78,10 +83,41 @@ class Analysis:
         return number * self.scale if relative else number
 
     def dominant(self, setting):
-        """Title of what contributes most to the error of a setting."""
+        """Place of what contributes most to the error of a setting."""
         parts = [self.part(i, n) for i, n in enumerate(setting)]
         bounds = [np.inf if part is None else part[2] for part in parts]
-        return self.changes[int(np.argmax(bounds))].title
+        return int(np.argmax(bounds))
+
+    def noise_of(self, i):
+        """The largest of what is varied, 0 if it hardly matters."""
+        line, fit = self.fits[i]
+        noise = max(self.noise[setting] for setting in line)
+        return noise if noise > MUCH * min(*fit.bounds, max(abs(fit.offsets))) else 0
+
+    def remedies(self, i):
+        """What would make the error smaller or better known that comes from one that is varied."""
+        line, fit = self.fits.get(i, ((), None))
+        if fit is None:
+            return ["settings that run to their end"]
+        one, noise, found = self.changes[i], self.noise_of(i), []
+        if noise:
+            what = "longer runs" if self.take == "mean" else "more lines of thermo output"
+            found.append(f"{what} (noise {percent(noise, self.scale)})")
+        if not has_no_order(fit):
+            return [*found, "finer values"]
+        sizes = [one.sizes[setting[i]] for setting in line]
+        if len(line) == 2:
+            found.append("a third value")
+        if max(sizes) < DOUBLED * min(sizes):
+            found.append(f"a coarsest over finest of {DOUBLED} or more (now "
+                         f"{max(sizes) / min(sizes):.2g})")
+        if len(line) == 2:
+            found.append(f"--order {one.title}=P if the order P is known")
+        return found or ["finer values"]
+
+
+def has_no_order(fit):
+    return bool(fit.why) and fit.why != richardson.SAME
 
 
 def signed(offset):
@@ -93,7 +129,9 @@ def words(changes, setting):
 
 
 def percent(number, scale):
-    """A number as share of the scale, or by itself where that is zero."""
+    """A number as share of the scale, or by itself where that is zero; - where there is none."""
+    if np.isnan(number):
+        return "-"
     return f"{100 * number / scale:.3g} %" if scale > 0 else f"{number:.3g}"
 
 
@@ -115,10 +153,10 @@ def value_of(analysis, setting):
     return f"{text} +- {noise:.2g}" if noise else text
 
 
-def print_analysis(analysis, take):
+def print_analysis(analysis):
     scale = analysis.scale
-    kind = {"last": "at the end", "mean": "mean", "series": "over time, root mean square"}[take]
-    print(f"\n{analysis.measure} ({kind})")
+    kind = {"last": "at the end", "mean": "mean", "series": "over time, root mean square"}
+    print(f"\n{analysis.measure} ({kind[analysis.take]})")
     rows = [("setting", "value", "from limit", "error below", "core s")]
     for setting in analysis.values:
         error = analysis.error(setting)
@@ -131,15 +169,21 @@ def print_analysis(analysis, take):
                                                    for text, width in zip(rest, widths[1:]))]))
     for i, (_, fit) in analysis.fits.items():
         print(order_line(analysis.changes[i], fit))
+        if has_no_order(fit):
+            print(f"  would help: {', '.join(analysis.remedies(i))}")
     for i, one in enumerate(analysis.changes):
         if i not in analysis.fits:
             print(f"{one.title}: one setting ran to its end, nothing is known of its error")
     limit = analysis.limit
     bound = analysis.error(analysis.finest).bound
-    if len(limit) == 1:
+    if len(limit) == 1 and analysis.has_limit:
         print(f"limit {limit[0]:.6g}, from the finest value {value_of(analysis, analysis.finest)} "
               f"with an error below {bound:.2g}")
     warn_of_costs(analysis)
+    noise = max((analysis.noise_of(i) for i in analysis.fits), default=0)
+    if analysis.take != "mean" and noise:
+        print(f"WARNING: values between lines of thermo output are interpolated, which may be off "
+              f"by {percent(noise, scale)}: have the script print more often (thermo)")
 
 
 def warn_of_costs(analysis):
@@ -167,6 +211,12 @@ def print_choice(analyses, within, asked):
     best = cheapest(analyses, run, within)
     print(f"\ncheapest run with an error below {asked}: " + (
         f"{words(first.changes, best[1])}, {best[0]:.3g} core s" if best else "none"))
+    if not best:
+        for one in analyses:
+            if one.error(one.finest).bound > one.tolerance(within):
+                i = one.dominant(one.finest)
+                print(f"  would help for {one.measure}: {one.changes[i].title}: "
+                      f"{', '.join(one.remedies(i))}")
     parts = [one.predicted() for one in analyses]
     guess = {setting: ([part[setting][0] for part in parts], parts[0][setting][1])
              for setting in parts[0] if all(setting in part for part in parts)}
@@ -178,7 +228,7 @@ def print_choice(analyses, within, asked):
         at = best[1] if best else first.finest
         for one in analyses:
             print(f"most of the error bound of {one.measure} at {words(first.changes, at)}: "
-                  f"{one.dominant(at)}")
+                  f"{one.changes[one.dominant(at)].title}")
 
 
 def write_table(analyses, path):
@@ -204,8 +254,9 @@ def draw_line(panel, analysis, i, color):
     unit = analysis.unit()
     panel.plot(seconds, [unit * error.bound for error in errors], "o-", color=color,
                label=f"{title}, error below")
-    panel.plot(seconds, [unit * abs(error.offset) for error in errors], "o:", mfc="none",
-               color=color, label=f"{title}, from the limit")
+    if analysis.has_limit:
+        panel.plot(seconds, [unit * abs(error.offset) for error in errors], "o:", mfc="none",
+                   color=color, label=f"{title}, from the limit")
     for setting, second, error in zip(line, seconds, errors):
         word = "finest" if setting == analysis.finest else analysis.changes[i].word(setting[i])
         if word != "finest" or color == "C0":
@@ -242,7 +293,7 @@ def draw(analyses, arguments, path):
 
 def report(analyses, arguments):
     for one in analyses:
-        print_analysis(one, arguments.take)
+        print_analysis(one)
     if arguments.within:
         number, relative = arguments.within
         asked = f"{100 * number:g} %" if relative else f"{number:g}"

@@ -20,6 +20,7 @@ DRAWS = 400                          # of the noise
 SURE = 0.95                          # share of the draws that must show an order
 WIDEST = 1.0                         # range of two thirds of the orders drawn, up to HIGHEST
 FLAT = 1e-9                          # relative range that is round-off
+SAME = "the values are the same"     # why no order is found: none is needed
 
 
 class Fit(NamedTuple):
@@ -115,7 +116,7 @@ def fit_sorted(h, values, noise, order):
     observed, between, why = np.nan, (), ""
     weights = 1 / h / np.sum(1 / h)
     if spread <= FLAT * size(values[0]):
-        why = "the values are the same"
+        why = SAME
     elif len(h) == 2:
         why = "" if order else "two settings show none"
     elif turns(values[None])[0]:
@@ -125,7 +126,7 @@ def fit_sorted(h, values, noise, order):
         observed = best_order(h, weights, values)
         why = "" if observed >= LEAST else \
             "the differences do not shrink as they should with an order of 0.5 or more"
-    if noise.any() and len(h) > 2 and why != "the values are the same":
+    if noise.any() and len(h) > 2 and why != SAME:
         orders = drawn_orders(h, weights, values, noise)
         share = np.mean(np.nan_to_num(orders) >= LEAST)
         between = tuple(np.nanpercentile(orders, (100 / 6, 500 / 6))) if share > 0.5 else ()

@@ -23,6 +23,8 @@ SCENE = """# a scene
 variable  dx    index 0.5    # of the fluid
 variable  shape index cell_100
 variable  rows  index 100
+variable  step  index 0
+variable  noise index 0
 variable  data  index ./folder
 molecule  cell  template.mol
 read_data cell add append
@@ -32,7 +34,8 @@ run       10
 thermo_style custom step pe
 run       100
 """
-# value = 3 + 0.5 dx^1.5 + 4 / vertices; falls from 1 at a rate of 1; noise of a known size
+# value = 3 + 0.5 dx^1.5 + 4 / vertices; falls from 1 at a rate of 1; noise of a known size; or
+# (1 + step^2 / 1000) sin(time), with a line every five steps
 LMP = """#!{python}
 import math, random, sys
 words = sys.argv
@@ -44,13 +47,14 @@ if values.get("dx") == "0.3":
 vertices = float(values.get("shape", "cell_100").split("_")[1])
 value = 3 + 0.5 * dx**1.5 + 4 / vertices
 random.seed(dx)
+step = float(values.get("step", 0))
 print("Step PotEng Step Time v_x\\n0 1 0 0 7\\nLoop time of 1")
 print("Step PotEng Step Time v_x")
-rows = int(values.get("rows", 100))
+rows = int(values.get("rows", 10 / step / 5 if step else 100))
 for n in range(rows + 1):
     time = 10 * n / rows
     print(n, 1, n, time, value - math.exp(-5 * time) + float(values["noise"]) * random.gauss(0, 1)
-          if "noise" in values else value)
+          if "noise" in values else (1 + 1e-3 * step**2) * math.sin(time) if step else value)
 print("Loop time of 2")
 """
 
@@ -116,7 +120,7 @@ class Converge(unittest.TestCase):
     def test_runs_are_kept_until_something_changes(self):
         words = "--vary", "dx=0.8,0.6"
         self.converge(*words)
-        record = self.folder / "out" / "dx=0.8" / "run.json"
+        record = self.folder / "out" / "dx-0.8" / "run.json"
         before = record.stat().st_mtime_ns
         self.converge(*words)
         self.assertEqual(record.stat().st_mtime_ns, before)
@@ -130,6 +134,49 @@ class Converge(unittest.TestCase):
         self.assertIn("order 1.5 as given", printed)
         fine = [row for row in self.table() if row["dx"] == "0.4"]
         self.assertAlmostEqual(float(fine[0]["from_limit"]), 0.5 * 0.4**1.5, places=3)
+
+    def test_series_of_lines_that_are_far_apart(self):
+        """The error of the timestep, 1e-3 step^2 of the amplitude, is not that of the lines."""
+        code, printed = self.converge("--vary", "step=0.2,0.1,0.05", "--take", "series")
+        self.assertEqual(code, 0, printed)
+        self.assertRegex(printed, "step: order (1.9|2.0)")
+        self.assertNotIn("WARNING", printed)
+        for row in self.table():
+            error = 1e-3 * float(row["step"])**2
+            self.assertTrue(error < float(row["error_below"]) / float(row["scale"]) < 2 * error)
+
+    def test_series_between_lines(self):
+        """Where the lines of one run are at times between those of others, it is said."""
+        code, printed = self.converge("--vary", "step=0.17,0.11,0.05", "--take", "series")
+        self.assertEqual(code, 0, printed)
+        self.assertIn("step: order unknown, it is within the noise", printed)
+        self.assertRegex(printed, r"would help: more lines of thermo output \(noise \d")
+        self.assertIn("have the script print more often (thermo)", printed)
+
+    def test_series_with_hardly_a_line(self):
+        code, printed = self.converge("--vary", "step=0.4,0.2,0.1", "--take", "series")
+        self.assertEqual(code, 1)
+        self.assertIn("a run has 6 lines of thermo output in the time that all have, a series "
+                      "needs 10 or more", printed)
+
+    def test_without_an_order_there_is_no_limit(self):
+        words = "--vary", "dx=0.8,0.75", "--take", "mean", "--set", "noise=0.1"
+        code, printed = self.converge(*words, "--within", "0.1%")
+        self.assertEqual(code, 0, printed)
+        self.assertNotIn("\nlimit ", printed)
+        self.assertEqual({row["from_limit"] for row in self.table()}, {"nan"})
+        self.assertRegex(printed, r"dx=0.8 +3[.\d]+ \+- [.\d]+ +- +[.\d]+ % ")
+        advice = r"longer runs \(noise [.\d]+ %\), a third value, a coarsest over finest of 2 or " \
+            r"more \(now 1.1\), --order dx=P if the order P is known\n"
+        self.assertRegex(printed, r"two settings show none\n  would help: " + advice)
+        self.assertRegex(printed, r"below 0.1 %: none\n  would help for v_x: dx: " + advice)
+
+    def test_settings_have_folders_that_all_systems_take(self):
+        self.converge("--vary", "dx:shape=0.8:cell_100,0.4:cell_200", "rows=50,100")
+        self.assertEqual({path.name for path in (self.folder / "out").iterdir() if path.is_dir()},
+                         {"dx-0.8_shape-cell_100_rows-100", "dx-0.4_shape-cell_200_rows-50",
+                          "dx-0.4_shape-cell_200_rows-100"})
+        self.assertEqual(self.table()[0]["dx:shape"], "0.8:cell_100")
 
     def test_values_that_are_all_the_same(self):
         code, printed = self.converge("--vary", "rows=50,100", "--within", "1%")
@@ -145,7 +192,8 @@ class Converge(unittest.TestCase):
 
     def test_wrong_options(self):
         for words, message in (
-                (("--vary", "dz=1,2"), "no index variable of that name, it has dx shape rows data"),
+                (("--vary", "dz=1,2"), "no index variable of that name, it has dx shape rows step "
+                                       "noise data"),
                 (("--vary", "dx=1"), "dx=1 has one value"),
                 (("--vary", "dx"), "dx is not NAME=VALUE,VALUE,..."),
                 (("--vary", "dx=1,3,2"), "does not go from coarse to fine"),
@@ -189,14 +237,42 @@ class Scripts(unittest.TestCase):
             (Path(folder) / "cell").write_text("\n")
             script = Script(path)
             lines = script.measuring(["v_x"]).splitlines()
-            self.assertEqual(list(script.variables()), ["dx", "shape", "rows", "data"])
+            self.assertEqual(list(script.variables()), ["dx", "shape", "rows", "step", "noise",
+                                                        "data"])
             self.assertEqual(script.folders(), {"data": str(Path(folder).resolve() / "folder")})
         self.assertIn(f"molecule  cell  {Path(folder).resolve()}/template.mol", lines)
         self.assertIn(f"read_data {Path(folder).resolve()}/cell add append", lines)
         self.assertEqual(lines[-3:], ["thermo_style custom step pe step time v_x",
                                       "thermo_modify   line one format float %.12g",
                                       "run       100"])
-        self.assertEqual(lines[7].split(), ["thermo_style", "custom", "step", "temp"])
+        self.assertEqual(lines[9].split(), ["thermo_style", "custom", "step", "temp"])
+
+    def test_a_series_has_lines(self):
+        """As many as its steps, 200 or more, at steps that a power of two divides; no fewer than
+        the script asks for, and none between the steps of what a fix averages."""
+        for text, expected in (
+                ("run $(round(v_a / (2*v_b))) upto # x", "($(round(v_a / (2*v_b))))-step"),
+                ("run ${n}", "(${n})"), ("run 100 post no", "(100)")):
+            with tempfile.TemporaryDirectory() as folder:
+                path = Path(folder) / "in.scene"
+                path.write_text(f"run 7\nthermo 20\n{text}\n")
+                lines = Script(path).measuring(["pe"], series=True).splitlines()
+            self.assertEqual(lines[5:-1], [
+                f"variable        converge_steps equal {expected}",
+                "variable        converge_every equal "
+                "ceil(2^floor(ln((v_converge_steps+1)/200)/ln(2)))",
+                "variable        converge_thermo equal "
+                "ternary((20>0)&&((20)<v_converge_every),20,v_converge_every)",
+                "thermo          ${converge_thermo}"])
+            self.assertEqual(lines[-1], text)
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "in.scene"
+            path.write_text("fix a all ave/time 5 1 5 c_x\nfix b all nve\nvariable v equal f_b\n"
+                            "run 9\n")
+            script = Script(path)
+            self.assertTrue(script.can_print_often(["v_v", "f_b[1]"]))
+            self.assertFalse(script.can_print_often(["f_a"]))
+            self.assertFalse(script.can_print_often(["f_of_an_included_file"]))
 
     def test_without_a_thermo_style(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -244,6 +320,11 @@ class Measures(unittest.TestCase):
         values, noise = run_measures.compared([first, second], "last", 0.5)
         np.testing.assert_allclose(values, [[10], [30]])
         self.assertFalse(noise.any())
+        late = np.linspace(0, 10.2, 35), np.linspace(0, 10.2, 35)**2
+        _, noise = run_measures.compared([first, late], "last", 0.5)
+        np.testing.assert_allclose(noise, [0, 0.1 * 0.2])    # half f'' (t - a) (b - t)
+        with self.assertRaisesRegex(run_measures.TooShort, "one has 2 lines"):
+            run_measures.compared([first, (late[0][[0, -1]], late[1][[0, -1]])], "last", 0.5)
         with self.assertRaises(run_measures.TooShort):
             run_measures.compared([first, (np.array([20.0, 30.0]), np.zeros(2))], "series", 0.5)
 

@@ -12,12 +12,17 @@ from pathlib import Path
 from lammps_case import ENVIRONMENT, ROOT
 
 SCENE = ROOT / "examples" / "capsule-shear" / "in.capsule-shear"
+TUTORIAL = ROOT / "examples" / "shear-cell" / "in.converge"
 COARSE = "dx=0.333333", "shape=capsule_162", "length=4", "gap=4", "strain=1.6", "every=0.16"
 
 
 def converge(folder, *words):
-    command = [sys.executable, ROOT / "scripts" / "converge.py", SCENE, "--measure", "c_cell[1][7]",
-               "--set", *COARSE, "--lmp", os.environ["LMP_RBC"], "-o", folder, *words]
+    return compare(folder, SCENE, "--set", *COARSE, *words)
+
+
+def compare(folder, script, *words):
+    command = [sys.executable, ROOT / "scripts" / "converge.py", script, "--measure",
+               "c_cell[1][7]", "--lmp", os.environ["LMP_RBC"], "-o", folder, *words]
     done = subprocess.run(command, text=True, check=False, timeout=300, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, env={**ENVIRONMENT, **os.environ})
     with open(Path(folder) / "converge.csv", encoding="utf-8") as file:
@@ -48,6 +53,21 @@ class Midpoint(unittest.TestCase):
         errors = [float(row["from_limit"]) for row in rows.values()]
         self.assertEqual(errors, sorted(errors, reverse=True))
         self.assertGreater(errors[0], 8 * errors[2])
+
+    def test_series_of_a_script_that_hardly_prints(self):
+        """The coarsest has a line at the start and one at the end, 10 % off in between."""
+        script = TUTORIAL.read_text(encoding="utf-8")
+        self.assertIn("thermo          20\ntimestep        ${timestep}\nrun ", script)
+        words = TUTORIAL, "--take", "series", "--set", "dx=1", "shape=rbc_162"
+        with tempfile.TemporaryDirectory() as folder:
+            done, rows = compare(folder, *words, "--vary", "timestep=1000,500,250")
+            _, finer = compare(folder, *words, "--vary", "timestep=1000,62.5", "--order",
+                               "timestep=2")
+        print(done.stdout)
+        self.assertNotIn("WARNING", done.stdout)
+        row, error = rows["1000"], float(finer["1000"]["from_limit"])
+        self.assertTrue(error < float(row["error_below"]) < 3 * error, (row, error))
+        self.assertLess(float(row["error_below"]), 0.001 * float(row["scale"]))
 
 
 if __name__ == "__main__":
