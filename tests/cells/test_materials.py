@@ -6,7 +6,7 @@ import unittest
 
 import numpy as np
 
-from lammps_case import POTENTIALS, dump_line, read_template, run, scene
+from lammps_case import POTENTIALS, attempt, dump_line, read_template, run, scene
 
 SPHERE = POTENTIALS / "capsule_162.mol"
 WHITE, RELAXED = POTENTIALS / "white_362.mol", POTENTIALS / "white_362_relaxed.mol"
@@ -68,9 +68,19 @@ class Published(unittest.TestCase):
                 print(f"\n{stage}: {ratio:.3f} times as stiff, measured {modulus / 8:.3f}")
                 self.assertAlmostEqual(ratio / (modulus / 8), 1, delta=2e-3)
 
-    def test_an_unknown_stage_is_an_error(self):
-        with self.assertRaisesRegex(Exception, "gametocyte"):
-            shear_modulus("malaria", "stage=gametocyte")
+    def test_what_is_unknown_stops_with_the_choices(self):
+        for material, setting, choices in (
+                ("malaria", "stage=Ring", "ring, trophozoite or schizont"),
+                ("sickle", "state=oxidized", "deoxygenated or oxygenated")):
+            script = f"units micro\n{include(material, setting)}\nprint 'went on'\n"
+            for ranks in (1, 2):
+                with self.subTest(material, ranks=ranks):
+                    result = attempt(script, ranks)
+                    name, value = setting.split("=")
+                    self.assertEqual(result.error,
+                                     f"{material}.material: {name} {value} must be {choices}")
+                    self.assertNotEqual(result.code, 0)
+                    self.assertNotIn("went on", result.printed)
 
     def test_oxygenated_sickle_cell_is_as_soft_as_a_healthy_one(self):
         healthy = shear_modulus("healthy")

@@ -89,6 +89,18 @@ class FirstTry(unittest.TestCase):
         self.assertEqual(re.findall(r".*nothing (?:keeps|repels).*", result.printed), [])
         self.assertGreater(result.thermo["Step"][-1], 249)
 
+    def test_include_says_that_membranes_are_not_there(self):
+        early = FIRST_TRY.replace("fix             mem", f"{INCLUDE}\nfix             mem")
+        other = FIRST_TRY.replace("fix             mem", "fix skin").replace(" f_mem", "")
+        for script, missing in ((early, "mem"), (other, "mem"),
+                                ("variable membranes index skin mem" + other, "mem")):
+            result = attempt(script.format(include=INCLUDE, steps=0))
+            self.assertRegex(result.error, f"^dense.blood: there is no fix {missing}: include it "
+                                           "behind the fixes rbc/membrane, .* variable membranes$")
+            self.assertNotEqual(result.code, 0)
+        named = "variable membranes index skin" + other
+        self.assertNotIn("no fix", run(named.format(include=INCLUDE, steps=0)).printed)
+
     def test_contact_of_the_scene_is_kept(self):
         own = ("pair_style rbc/jkr 0.9\npair_coeff 1 1 repulsive 0.2 0.9\n"
                "fix plates all wall/harmonic zlo EDGE 0.1 1 0.5")
