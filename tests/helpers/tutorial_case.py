@@ -35,8 +35,9 @@ def workplace(page, example):
     shutil.rmtree(top, ignore_errors=True)
     folder = top / "examples" / example
     folder.mkdir(parents=True)
-    for path in (ROOT / "examples" / example).glob("in.*"):
-        shutil.copy(path, folder)
+    for pattern in ("in.*", "*.txt", "*.py"):
+        for path in (ROOT / "examples" / example).glob(pattern):
+            shutil.copy(path, folder)
     for name in ("scripts", "potentials"):
         (top / name).symlink_to(ROOT / name)
     for name, tool in (("build", "LMP_RBC"), ("bin", "MPIEXEC")):
