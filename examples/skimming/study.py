@@ -34,8 +34,11 @@ def split(share, a, b, least):
 
 
 def pries_1989(share, hematocrit, feed, own, other):
-    """As fitted at first: Pries, Ley, Claassen and Gaehtgens, Microvasc Res 38, 81 (1989). `feed`,
-    `own`, `other` are diameters in um, the hematocrit is that of discharge in the feeding vessel."""
+    """As fitted at first: Pries, Ley, Claassen and Gaehtgens, Microvasc Res 38, 81 (1989).
+
+    `feed`, `own`, `other` are diameters in um, the hematocrit is that of discharge in the feeding
+    vessel.
+    """
     return split(share, -6.96 * np.log(own / other) / feed, 1 + 6.98 * (1 - hematocrit) / feed,
                  0.4 / feed)
 
@@ -66,7 +69,8 @@ def skimmed(rows, begin):
     cells = np.diff(rows["into"][late][times], axis=0)
     total, flows = cells.sum(axis=0), np.diff(rows["volumes"][late][[0, -1]], axis=0)[0]
     part = total[0] / total.sum()
-    counted = np.sqrt(max(part * (1 - part), 0) / total.sum())
+    likely = (total[0] + 1) / (total.sum() + 2)    # Laplace's rule: if all went there, one may not
+    counted = np.sqrt(likely * (1 - likely) / (total.sum() + 2))
     off = cells[:, 0] - part * cells.sum(axis=1)
     between = np.sqrt((off**2).sum() * BLOCKS / (BLOCKS - 1)) / total.sum()
     return dict(share=flows[0] / flows.sum(), cells=total.sum(), first=total[0], part=part,

@@ -1,5 +1,5 @@
-"""A vessel that parts into two: the account of cells that come into its daughters, and Pries' law as
-study.py has it."""
+"""A vessel that parts into two: the account of cells that come into its daughters, and Pries' law
+as study.py has it."""
 
 import unittest
 
@@ -74,10 +74,18 @@ class Counting(unittest.TestCase):
         self.assertAlmostEqual(row["share"], 0.7)
         self.assertAlmostEqual(row["part"], 0.75)
         self.assertAlmostEqual(row["cells"], 400)
-        self.assertAlmostEqual(row["error"], np.sqrt(0.75 * 0.25 / 400))
+        self.assertAlmostEqual(row["error"] / np.sqrt(0.75 * 0.25 / 400), 1, delta=0.01)
         self.assertLess(row["between"], 1e-12)
         self.assertAlmostEqual(row["feed"], study.VOLUME / 500)
         self.assertAlmostEqual(0.7 * row["hematocrit1"] + 0.3 * row["hematocrit2"], row["feed"])
+
+    def test_all_into_one(self):
+        study, steps = study_of("skimming"), np.arange(0, 81)
+        row = study.skimmed(dict(volume=steps, into=np.outer(steps, [1, 0]),
+                                 volumes=np.outer(steps, [9, 1])), 0)
+        self.assertEqual(row["part"], 1)
+        # a chance of 1 in 82 for the next cell, by Laplace's rule of succession
+        self.assertAlmostEqual(row["error"], np.sqrt(81) / 82 / np.sqrt(82))
 
     def test_error_of_a_binomial_process(self):
         """Where each cell goes is drawn anew: blocks differ as counting says."""
