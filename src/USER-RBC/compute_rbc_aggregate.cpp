@@ -243,7 +243,7 @@ ComputeRBCAggregate::Surface ComputeRBCAggregate::surface_here() const
       const LocalCells::Cell &cell = local.cells()[c];
       for (int v = 0; v < membranes->shape().vertex_count(); ++v)
         if (cell.elements->owned[v]) surface.share[cell.atom[v]] /= areas[c];
-      const int index = cells.index_of(local.molecules()[cell.index]);
+      const int index = cells.index_of(cell.molecule);
       if (index >= 0) surface.split[index] = cell.shared;
     }
   }

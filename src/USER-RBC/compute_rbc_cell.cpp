@@ -152,7 +152,7 @@ void ComputeRBCCell::add_sums(CellMembranes &membranes)
   const rbc::SurfaceTemplate &shape = membranes.shape();
   std::vector<Vec3> x(shape.vertex_count());
   for (const LocalCells::Cell &cell : local.cells()) {
-    const int row = cells.index_of(local.molecules()[cell.index]);
+    const int row = cells.index_of(cell.molecule);
     if (row < 0) continue;
     local.gather(cell, x);
     rbc::VolumeMoments moments;

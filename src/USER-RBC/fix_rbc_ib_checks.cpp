@@ -138,10 +138,10 @@ std::string FixRBCIB::remedies_for(const std::vector<Flaw> &seen)
   now.chooses_stages = steps->integrator().can_retake();
   now.adapts = steps->adaptive();
   now.creases = now.limits_stretch = true;
-  std::size_t cells = 0;
+  bigint cells = 0;
   for (const CellMembranes *membranes : all_cell_membranes(lmp)) {
     now.membranes = true;
-    cells += membranes->local_cells().molecules().size();
+    cells += membranes->local_cells().count();
     now.creases = now.creases && membranes->parameters().crease.stiffness > 0;
     now.limits_stretch = now.limits_stretch && membranes->parameters().stretch.stiffness > 0;
   }

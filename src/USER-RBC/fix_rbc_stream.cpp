@@ -219,8 +219,7 @@ void FixRBCStream::find_feed()
 void FixRBCStream::setup(int /*vflag*/)
 {
   ledger->start(rate_through(port), rates_out());
-  if (stretch)
-    follow(centres_on_first(lmp, membranes->local_cells(), membranes->shape().vertex_count()));
+  if (stretch) follow(centres_here());
 }
 
 void FixRBCStream::end_of_step()
@@ -266,7 +265,7 @@ double FixRBCStream::compute_vector(int n)
     return number[(n - NUMBERS) % OUTLET_NUMBERS];
   }
   CellMembranes *const now = membranes_of_group();    // between runs they may be gone
-  const double inside = now ? static_cast<double>(now->local_cells().molecules().size()) : 0;
+  const double inside = now ? static_cast<double>(now->local_cells().count()) : 0;
   const double number[] = {in.cells,        left.cells,        inside,    ledger->owed(),
                            in.hematocrit(), left.hematocrit(), in.volume, left.volume};
   return number[n];

@@ -92,6 +92,7 @@ class FixRBCStream : public Fix, public CellSource {
 
   void read_direction(class Arguments &);
   std::vector<Leaver> find_leavers(const std::vector<rbc::Vec3> &centres) const;
+  std::vector<rbc::Vec3> centres_here() const;
   void follow(const std::vector<rbc::Vec3> &centres);
   double place_along(const rbc::Vec3 &centre) const;
   bool is_beside(const rbc::Vec3 &centre) const;
@@ -104,7 +105,7 @@ class FixRBCStream : public Fix, public CellSource {
   rbc::Vec3 near_feed(const rbc::Vec3 &) const;
   std::vector<std::vector<rbc::Vec3>> find_arrivals();
   void add_copies(std::vector<std::vector<rbc::Vec3>> &found);
-  void note_cell(std::size_t, const rbc::Vec3 &, const std::vector<rbc::Vec3> &);
+  void note_cell(const struct WholeCell &);
   bool add_copy(const std::vector<rbc::Vec3> &, double, std::vector<std::vector<rbc::Vec3>> &found);
   bool add_another(std::vector<std::vector<rbc::Vec3>> &found);
   void add_random(std::vector<std::vector<rbc::Vec3>> &found);

@@ -52,12 +52,16 @@ void FixRBCStream::post_integrate()
   arrivals.clear();
   if (update->ntimestep % every != 0) return;
   std::vector<Vec3> centres;
-  if (stretch || !outlets.empty())
-    centres = centres_on_first(lmp, membranes->local_cells(), shape->vertex_count());
+  if (stretch || !outlets.empty()) centres = centres_here();
   leavers = find_leavers(centres);
   if (stretch) follow(centres);
   if (is_due()) arrivals = find_arrivals();
   if (!leavers.empty() || !arrivals.empty()) next_reneighbor = update->ntimestep;
+}
+
+std::vector<Vec3> FixRBCStream::centres_here() const
+{
+  return cell_centres(lmp, membranes->local_cells(), shape->vertex_count());
 }
 
 /* ----------------------------------------------------------------------
@@ -88,27 +92,35 @@ std::vector<FixRBCStream::Leaver> FixRBCStream::find_leavers(const std::vector<V
   std::vector<RegionEnclosure> ends;
   for (const Outlet &outlet : outlets)
     ends.emplace_back(domain->get_region_by_id(outlet.region), domain);
-  const std::vector<tagint> &molecules = membranes->local_cells().molecules();
-  for (std::size_t c = 0; c < centres.size(); ++c)
-    for (std::size_t n = 0; n < ends.size(); ++n) {
-      if (!ends[n].contains(centres[c])) continue;
-      found.push_back({molecules[c], static_cast<int>(n)});
-      break;
-    }
-  return gather_all(found, world);    // those of rank 0
+  const LocalCells &cells = membranes->local_cells();
+  for (std::size_t c = 0; c < centres.size(); ++c) {
+    if (!speaks_for(cells, c)) continue;
+    const auto end = std::find_if(ends.begin(), ends.end(),
+                                  [&](const auto &region) { return region.contains(centres[c]); });
+    if (end != ends.end())
+      found.push_back({cells.cells()[c].molecule, static_cast<int>(end - ends.begin())});
+  }
+  found = gather_all(found, world);
+  std::sort(found.begin(), found.end(),
+            [](const Leaver &a, const Leaver &b) { return a.molecule < b.molecule; });
+  return found;
 }
 
 /* ----------------------------------------------------------------------
-   where cells are along the periodic stretch, on rank 0
+   tells rank 0 where cells are along the periodic stretch
 ------------------------------------------------------------------------- */
 
 void FixRBCStream::follow(const std::vector<Vec3> &centres)
 {
+  const LocalCells &local = membranes->local_cells();
   std::vector<rbc::PeriodicStretch::Cell> cells;
-  for (std::size_t c = 0; c < centres.size(); ++c)
-    cells.push_back(
-        {membranes->local_cells().molecules()[c], place_along(centres[c]), is_beside(centres[c])});
-  stretch->follow(cells);
+  for (std::size_t c = 0; c < centres.size(); ++c) {
+    if (!speaks_for(local, c)) continue;
+    const rbc::PeriodicStretch::Cell cell{local.cells()[c].molecule, place_along(centres[c]),
+                                          is_beside(centres[c])};
+    if (!stretch->is_elsewhere(cell)) cells.push_back(cell);
+  }
+  stretch->follow(gather_on_first(cells, world));
 }
 
 double FixRBCStream::place_along(const Vec3 &centre) const
@@ -190,22 +202,18 @@ void FixRBCStream::add_arrivals_of_others()
 void FixRBCStream::add_surfaces(CellMembranes &others)
 {
   const int size = others.shape().vertex_count();
-  const std::vector<Vec3> centres = centres_on_first(lmp, others.local_cells(), size);
+  const std::vector<Vec3> centres = cell_centres(lmp, others.local_cells(), size);
   const double reach = placement->reach() + 2 * std::sqrt(others.shape().area);
   std::vector<char> wanted(centres.size());
   for (std::size_t c = 0; c < centres.size(); ++c) {
     const Vec3 from = near_feed(centres[c]) - feed_lo;
     wanted[c] = ((from.array() > -reach) && (from.array() < feed_length.array() + reach)).all();
   }
-  auto surfaces = vertices_on_first(lmp, others.local_cells(), size, wanted);
-  auto next = surfaces.begin();
-  for (std::size_t c = 0; c < centres.size(); ++c) {
-    if (!wanted[c]) continue;
-    std::vector<Vec3> &vertices = *next++;
-    const Vec3 shift = near_feed(centres[c]) - centres[c];
-    for (Vec3 &vertex : vertices) vertex += shift;
-    if (stretch && &others == membranes) note_cell(c, centres[c], vertices);
-    placement->avoid_surface({std::move(vertices), &others.shape().triangles});
+  for (WholeCell &cell : whole_cells_on_first(lmp, others.local_cells(), size, centres, wanted)) {
+    const Vec3 shift = near_feed(cell.centre) - cell.centre;
+    for (Vec3 &vertex : cell.vertices) vertex += shift;
+    if (stretch && &others == membranes) note_cell(cell);
+    placement->avoid_surface({std::move(cell.vertices), &others.shape().triangles});
   }
 }
 
@@ -213,14 +221,14 @@ void FixRBCStream::add_surfaces(CellMembranes &others)
    of which a copy may be made
 ------------------------------------------------------------------------- */
 
-void FixRBCStream::note_cell(std::size_t c, const Vec3 &centre, const std::vector<Vec3> &vertices)
+void FixRBCStream::note_cell(const WholeCell &cell)
 {
-  const double place = place_along(centre);
-  if (place >= 0 && place < stretch->length() && !is_beside(centre))
-    inside.push_back({place, vertices});
+  const double place = place_along(cell.centre);
+  if (place >= 0 && place < stretch->length() && !is_beside(cell.centre))
+    inside.push_back({place, cell.vertices});
   const auto &ids = stretch->waiting();
-  const tagint molecule = membranes->local_cells().molecules()[c];
-  if (std::find(ids.begin(), ids.end(), molecule) != ids.end()) waiting[molecule] = vertices;
+  if (std::find(ids.begin(), ids.end(), cell.molecule) != ids.end())
+    waiting[cell.molecule] = cell.vertices;
 }
 
 /* ----------------------------------------------------------------------

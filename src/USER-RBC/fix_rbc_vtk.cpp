@@ -6,12 +6,13 @@
 #include "domain.h"
 #include "error.h"
 #include "group.h"
-#include "irregular.h"
 #include "membrane/membrane_tension.h"
 #include "modify.h"
 #include "output/pvd_file.h"
 #include "output/vtp_writer.h"
 #include "support/rbc_arguments.h"
+#include "support/rbc_first_message.h"
+#include "support/rbc_molecule_shares.h"
 #include "update.h"
 
 #include <algorithm>
@@ -31,11 +32,34 @@ static constexpr int VALUES = 3 + 3 + 3 + 1;    // at a vertex, with its positio
 
 static constexpr double SIDE = 1.0e-9;
 
+namespace {
+
+// vertices of a cell that are in the group
+
+struct Members {
+  tagint molecule;
+  int count;
+
+  void include(const Members &other) { count += other.count; }
+};
+
+}    // namespace
+
 // a vertex on its way to the rank that writes its cell
 
 struct FixRBCVTK::Vertex {
   int cell, vertex;
   double x[3], v[3], f[3];
+};
+
+// of one source: for each cell here the rank that owns its first vertex, -1 outside the group; the
+// cells that this rank writes, in order; and where they are among all that are written
+
+struct FixRBCVTK::Writers {
+  std::vector<int> ranks;
+  std::vector<const LocalCells::Cell *> mine;
+  std::vector<int> slots;
+  bigint all;
 };
 
 /* ---------------------------------------------------------------------- */
@@ -91,45 +115,40 @@ void FixRBCVTK::init()
     if (!owner && strcmp(fix->style, "rbc/ib") != 0) continue;
     if (!before)
       error->all(FLERR, "Fix rbc/vtk {} must be defined after fix {} {}", id, fix->style, fix->id);
-    if (owner) sources.push_back(select(owner->membranes()));
+    if (owner) sources.push_back(&owner->membranes());
   }
   if (sources.empty()) error->all(FLERR, "Fix rbc/vtk {}: there is no fix rbc/membrane", id);
+  cells_changed();
 }
 
 /* ---------------------------------------------------------------------- */
 
 void FixRBCVTK::cells_changed()
 {
-  for (Source &source : sources) source = select(*source.membranes);
+  for (const CellMembranes *source : sources) check_whole(*source);
 }
 
 /* ---------------------------------------------------------------------- */
 
-FixRBCVTK::Source FixRBCVTK::select(CellMembranes &membranes)
+void FixRBCVTK::check_whole(const CellMembranes &membranes) const
 {
-  const std::vector<tagint> &molecules = membranes.local_cells().molecules();
-  std::vector<int> inside(molecules.size());
   const int bits = groupbit | membranes.groupbit();
+  std::vector<Members> mine;
   for (int i = 0; i < atom->nlocal; ++i) {
     if ((atom->mask[i] & bits) != bits) continue;
-    const auto found = std::lower_bound(molecules.begin(), molecules.end(), atom->molecule[i]);
-    ++inside[found - molecules.begin()];
+    if (mine.empty() || mine.back().molecule != atom->molecule[i])
+      mine.push_back({atom->molecule[i], 0});
+    ++mine.back().count;
   }
-  MPI_Allreduce(MPI_IN_PLACE, inside.data(), static_cast<int>(inside.size()), MPI_INT, MPI_SUM,
-                world);
-
-  Source source{&membranes, std::vector<int>(molecules.size(), -1), 0};
   const int size = membranes.shape().vertex_count();
-  for (std::size_t c = 0; c < molecules.size(); ++c) {
-    if (inside[c] == size)
-      source.slots[c] = source.count++;
-    else if (inside[c] > 0)
-      error->all(FLERR,
-                 "Fix rbc/vtk {}: group {} breaks the cell with molecule ID {}: it holds {} of its "
-                 "{} vertices",
-                 id, group->names[igroup], molecules[c], inside[c], size);
-  }
-  return source;
+  std::string broken;
+  for (const Members &cell : share_molecules(lmp, std::move(mine)))
+    if (cell.count != size && broken.empty())
+      broken = fmt::format("Fix rbc/vtk {}: group {} breaks the cell with molecule ID {}: it holds "
+                           "{} of its {} vertices",
+                           id, group->names[igroup], cell.molecule, cell.count, size);
+  broken = first_message(lmp, broken);
+  if (!broken.empty()) error->all(FLERR, "{}", broken);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -174,13 +193,12 @@ void FixRBCVTK::write(ComputeRBCAggregate *grouping, const std::string &context)
     modify->addstep_compute((last_step / nevery + 1) * nevery);
   }
 
-  std::vector<std::vector<int>> writers;
+  std::vector<Writers> writers;
   std::vector<rbc::VtpWriter::Block> blocks;
-  for (const Source &source : sources) {
-    writers.push_back(find_writers(source));
-    const std::vector<int> &ranks = writers.back();
-    const auto here = std::count(ranks.begin(), ranks.end(), comm->me);
-    blocks.push_back({&source.membranes->shape(), pieces ? here : source.count});
+  for (CellMembranes *source : sources) {
+    writers.push_back(find_writers(*source));
+    const auto here = static_cast<bigint>(writers.back().mine.size());
+    blocks.push_back({&source->shape(), pieces ? here : writers.back().all});
   }
 
   try {
@@ -189,7 +207,7 @@ void FixRBCVTK::write(ComputeRBCAggregate *grouping, const std::string &context)
       writer =
           std::make_unique<rbc::VtpWriter>(pieces ? piece(comm->me) : name, time, data, blocks);
     for (std::size_t s = 0; s < sources.size(); ++s)
-      write_cells(sources[s], static_cast<int>(s), writers[s], grouping, writer.get());
+      write_cells(*sources[s], static_cast<int>(s), writers[s], grouping, writer.get());
     if (writer) writer->close();
     if (pieces && comm->me == 0) {
       std::vector<std::string> names(comm->nprocs);
@@ -205,21 +223,38 @@ void FixRBCVTK::write(ComputeRBCAggregate *grouping, const std::string &context)
 }
 
 /* ----------------------------------------------------------------------
-   for each cell here the rank that owns its first vertex, -1 for cells outside the group
+   A cell is in the group with all of its vertices. In a file of its own a rank writes its cells in
+   order; in a single one all are in order of molecule ID.
 ------------------------------------------------------------------------- */
 
-std::vector<int> FixRBCVTK::find_writers(const Source &source) const
+FixRBCVTK::Writers FixRBCVTK::find_writers(CellMembranes &source) const
 {
-  LocalCells &local = source.membranes->local_cells();
+  LocalCells &local = source.local_cells();
   std::vector<double> ranks(local.cells().size());
   std::transform(
       local.cells().begin(), local.cells().end(), ranks.begin(),
       [this](const LocalCells::Cell &cell) { return cell.elements->owned[0] ? comm->me : 0; });
   local.sum_shared(ranks, 1);
 
-  std::vector<int> writers(ranks.begin(), ranks.end());
-  for (std::size_t c = 0; c < writers.size(); ++c)
-    if (source.slots[local.cells()[c].index] < 0) writers[c] = -1;
+  Writers writers{{ranks.begin(), ranks.end()}, {}, {}, 0};
+  for (std::size_t c = 0; c < ranks.size(); ++c) {
+    const LocalCells::Cell &cell = local.cells()[c];
+    const auto &owned = cell.elements->owned;
+    const auto v = std::find(owned.begin(), owned.end(), 1) - owned.begin();
+    if (!(atom->mask[cell.atom[v]] & groupbit)) writers.ranks[c] = -1;
+    if (writers.ranks[c] == comm->me) writers.mine.push_back(&cell);
+  }
+  std::sort(writers.mine.begin(), writers.mine.end(),
+            [](const auto *a, const auto *b) { return a->index < b->index; });
+  if (pieces) return writers;
+
+  const auto here = static_cast<bigint>(writers.mine.size());
+  MPI_Allreduce(&here, &writers.all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  std::vector<tagint> molecules;
+  for (const LocalCells::Cell *cell : writers.mine) molecules.push_back(cell->molecule);
+  std::vector<MoleculePlace> places = places_in_order(lmp, std::move(molecules));
+  for (const MoleculePlace &place : places) writers.slots.push_back(place.place);
+  std::sort(writers.slots.begin(), writers.slots.end());    // as the cells are
   return writers;
 }
 
@@ -227,15 +262,15 @@ std::vector<int> FixRBCVTK::find_writers(const Source &source) const
    what other ranks own of the cells that this one writes, in order of cells
 ------------------------------------------------------------------------- */
 
-std::vector<FixRBCVTK::Vertex> FixRBCVTK::collect(const Source &source,
-                                                  const std::vector<int> &writers)
+std::vector<FixRBCVTK::Vertex> FixRBCVTK::collect(const CellMembranes &source,
+                                                  const Writers &writers)
 {
-  const std::vector<LocalCells::Cell> &cells = source.membranes->local_cells().cells();
-  const int size = source.membranes->shape().vertex_count();
+  const std::vector<LocalCells::Cell> &cells = source.local_cells().cells();
+  const int size = source.shape().vertex_count();
   std::vector<Vertex> sent;
   std::vector<int> ranks;
   for (std::size_t c = 0; c < cells.size(); ++c) {
-    if (writers[c] < 0 || writers[c] == comm->me) continue;
+    if (writers.ranks[c] < 0 || writers.ranks[c] == comm->me) continue;
     for (int v = 0; v < size; ++v) {
       if (!cells[c].elements->owned[v]) continue;
       const int i = cells[c].atom[v];
@@ -245,15 +280,11 @@ std::vector<FixRBCVTK::Vertex> FixRBCVTK::collect(const Source &source,
       std::copy_n(atom->v[i], 3, vertex.v);
       std::copy_n(atom->f[i], 3, vertex.f);
       sent.push_back(vertex);
-      ranks.push_back(writers[c]);
+      ranks.push_back(writers.ranks[c]);
     }
   }
 
-  Irregular irregular(lmp);
-  std::vector<Vertex> received(irregular.create_data(static_cast<int>(sent.size()), ranks.data()));
-  irregular.exchange_data(reinterpret_cast<char *>(sent.data()), sizeof(Vertex),
-                          reinterpret_cast<char *>(received.data()));
-  irregular.destroy_data();
+  std::vector<Vertex> received = send_elements(lmp, std::move(sent), std::move(ranks));
   std::sort(received.begin(), received.end(),
             [](const Vertex &a, const Vertex &b) { return a.cell < b.cell; });
   return received;
@@ -263,19 +294,13 @@ std::vector<FixRBCVTK::Vertex> FixRBCVTK::collect(const Source &source,
    every cell is put together on one rank, which writes it or, for a single file, sends it to rank 0
 ------------------------------------------------------------------------- */
 
-void FixRBCVTK::write_cells(const Source &source, int block, const std::vector<int> &writers,
+void FixRBCVTK::write_cells(const CellMembranes &source, int block, const Writers &writers,
                             const ComputeRBCAggregate *grouping, rbc::VtpWriter *writer)
 {
-  const LocalCells &local = source.membranes->local_cells();
-  const rbc::SurfaceTemplate &shape = source.membranes->shape();
-  const rbc::MembraneParameters &parameters = source.membranes->parameters();
+  const rbc::SurfaceTemplate &shape = source.shape();
+  const rbc::MembraneParameters &parameters = source.parameters();
   const int size = shape.vertex_count();
-
-  std::vector<const LocalCells::Cell *> mine;
-  for (std::size_t c = 0; c < writers.size(); ++c)
-    if (writers[c] == comm->me) mine.push_back(&local.cells()[c]);
-  std::sort(mine.begin(), mine.end(),
-            [](const auto *a, const auto *b) { return a->index < b->index; });
+  const std::vector<const LocalCells::Cell *> &mine = writers.mine;
 
   const std::vector<Vertex> received = collect(source, writers);
   auto next = received.begin();
@@ -301,8 +326,8 @@ void FixRBCVTK::write_cells(const Source &source, int block, const std::vector<i
     rbc::vertex_tension(shape, parameters, x, tension);
     if (!unwrap) wrap(x);
 
-    message[0] = pieces ? n : source.slots[cell.index];
-    message[1] = static_cast<double>(local.molecules()[cell.index]);
+    message[0] = pieces ? static_cast<double>(n) : writers.slots[n];
+    message[1] = static_cast<double>(cell.molecule);
     if (grouping) message[2] = grouping->vector_atom[cell.atom[0]];
     double *at = message.data() + head;
     for (const std::vector<Vec3> *vectors : {&x, &v, &f})
@@ -315,7 +340,7 @@ void FixRBCVTK::write_cells(const Source &source, int block, const std::vector<i
   }
 
   if (pieces || comm->me != 0) return;
-  for (int n = static_cast<int>(mine.size()); n < source.count; ++n) {
+  for (auto n = static_cast<bigint>(mine.size()); n < writers.all; ++n) {
     MPI_Recv(message.data(), static_cast<int>(message.size()), MPI_DOUBLE, MPI_ANY_SOURCE,
              1 + block, world, MPI_STATUS_IGNORE);
     write();
@@ -337,13 +362,4 @@ void FixRBCVTK::wrap(std::vector<Vec3> &x) const
       shift[d] =
           std::floor((centre[d] - domain->boxlo[d]) / domain->prd[d] + SIDE) * domain->prd[d];
   for (Vec3 &vertex : x) vertex -= shift;
-}
-
-/* ---------------------------------------------------------------------- */
-
-double FixRBCVTK::memory_usage()
-{
-  double bytes = 0;
-  for (const Source &source : sources) bytes += source.slots.capacity() * sizeof(int);
-  return bytes;
 }

@@ -29,29 +29,24 @@ class FixRBCVTK : public Fix, public RunEnd, public CellWatcher {
   void setup(int) override;
   void end_of_step() override;
   void write_failure(const std::string &) override;
-  double memory_usage() override;
 
  private:
-  struct Source {
-    CellMembranes *membranes;
-    std::vector<int> slots;    // place of each of its cells among those in the group, -1 for others
-    int count;                 // of the cells in the group
-  };
   struct Vertex;
+  struct Writers;
 
   std::string file;
   bool pieces;    // a file for each rank
   bool unwrap = false;
   std::string aggregate_id;    // of the compute whose aggregates are written, empty for none
   class ComputeRBCAggregate *aggregate = nullptr;
-  std::vector<Source> sources;
+  std::vector<CellMembranes *> sources;
   bigint last_step = -1;
 
-  Source select(CellMembranes &);
+  void check_whole(const CellMembranes &) const;
   void write(class ComputeRBCAggregate *, const std::string & = "");
-  std::vector<int> find_writers(const Source &) const;
-  std::vector<Vertex> collect(const Source &, const std::vector<int> &);
-  void write_cells(const Source &, int, const std::vector<int> &, const ComputeRBCAggregate *,
+  Writers find_writers(CellMembranes &) const;
+  std::vector<Vertex> collect(const CellMembranes &, const Writers &);
+  void write_cells(const CellMembranes &, int, const Writers &, const ComputeRBCAggregate *,
                    rbc::VtpWriter *);
   void wrap(std::vector<rbc::Vec3> &) const;
 };

@@ -277,7 +277,7 @@ CellImages::Stretch CellImages::largest_stretch(LocalCells &cells)
         joined.most_stretched({wrapped.data(), is_known.data(), is_known.data(), shifts.data()});
     if (edge.ratio <= ratio) continue;
     ratio = edge.ratio;
-    molecule = cells.molecules()[local[c].index];
+    molecule = local[c].molecule;
   }
   double largest;
   MPI_Allreduce(&ratio, &largest, 1, MPI_DOUBLE, MPI_MAX, world);

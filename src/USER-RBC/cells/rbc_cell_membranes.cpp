@@ -407,8 +407,7 @@ void CellMembranes::report(const LocalCells::Cell &cell, const std::string &what
   domain->remap(centre.data());
   stop_->report(
       fmt::format("{}: {} at step {}: cell with molecule ID {} near ({:.6g}, {:.6g}, {:.6g})",
-                  style_, what, update->ntimestep, cells_.molecules()[cell.index], centre[0],
-                  centre[1], centre[2]),
+                  style_, what, update->ntimestep, cell.molecule, centre[0], centre[1], centre[2]),
       flaw);
 }
 
@@ -418,5 +417,5 @@ double CellMembranes::bytes() const
 {
   const double vertices = static_cast<double>(cells_.cells().size()) * shape().vertex_count();
   return vertices * (sizeof(int) + sizeof(Vec3) + sizeof(char)) +
-         (volume_gradient_.size() + linear_at_.size()) * sizeof(Vec3);
+         (volume_gradient_.size() + linear_at_.size()) * sizeof(Vec3) + cells_.bytes();
 }

@@ -2,6 +2,7 @@
 
 #include "atom.h"
 #include "error.h"
+#include "support/rbc_gather.h"
 
 #include <algorithm>
 
@@ -21,7 +22,7 @@ void GroupCells::collect(int groupbit)
 {
   ids.clear();
   for (CellMembranes *membranes : members) {
-    const auto &molecules = membranes->local_cells().molecules();
+    const auto molecules = gather_all(membranes->local_cells().all().kept(), world);
     ids.insert(ids.end(), molecules.begin(), molecules.end());
   }
   std::sort(ids.begin(), ids.end());

@@ -1,11 +1,9 @@
 #include "cells/rbc_local_cells.h"
 
 #include "atom.h"
-#include "cells/rbc_cell_changes.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "support/rbc_gather.h"
 #include "update.h"
 
 #include <algorithm>
@@ -18,7 +16,8 @@ using rbc::Vec3;
 LocalCells::LocalCells(LAMMPS *lmp, const rbc::SurfaceTemplate &shape, int groupbit,
                        std::string style) :
     Pointers(lmp),
-    shape(shape), groupbit(groupbit), style(std::move(style)), images(lmp, shape, this->style),
+    shape(shape), groupbit(groupbit), style(std::move(style)),
+    directory(lmp, shape.vertex_count(), groupbit, this->style), images(lmp, shape, this->style),
     whole(rbc::CellElements::whole(shape)), sums(lmp)
 {
 }
@@ -36,53 +35,60 @@ void LocalCells::identify_again()
   if (atom->map_style == Atom::MAP_NONE)
     error->all(FLERR, "{} requires an atom map, see atom_modify", style);
 
-  molecule_ids.clear();
-  first_ids.clear();
-  index_of.clear();
-  for (const Extent &cell : find_extents()) {
-    if (cell.molecule <= 0)
-      error->all(FLERR, "{}: {} atoms of the group belong to no molecule", style, cell.count);
-    if (cell.count != shape.vertex_count())
-      error->all(FLERR,
-                 "{}: the cell with molecule ID {} has {} atoms in the group, its template {}",
-                 style, cell.molecule, cell.count, shape.vertex_count());
-    if (cell.last - cell.first + 1 != shape.vertex_count())
-      error->all(FLERR,
-                 "{}: the atom IDs of the cell with molecule ID {} are not consecutive ({} to {})",
-                 style, cell.molecule, cell.first, cell.last);
-    index_of[cell.molecule] = static_cast<int>(molecule_ids.size());
-    molecule_ids.push_back(cell.molecule);
-    first_ids.push_back(cell.first);
-  }
-  if (molecule_ids.empty() && !is_fed(lmp, groupbit))
-    error->all(FLERR, "{}: its group has no atoms; define the group after the cells are made",
-               style);
+  directory.identify();
+  known_cells.clear();
+  std::vector<tagint> mine;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if ((atom->mask[i] & groupbit) && (mine.empty() || mine.back() != atom->molecule[i]))
+      mine.push_back(atom->molecule[i]);
+  ask_for(std::move(mine));
+}
+
+/* ---------------------------------------------------------------------- */
+
+void LocalCells::ask_for(std::vector<tagint> molecules)
+{
+  std::sort(molecules.begin(), molecules.end());
+  molecules.erase(std::unique(molecules.begin(), molecules.end()), molecules.end());
+  for (const CellDirectory::Entry &cell : directory.find(molecules))
+    known_cells.insert({cell.molecule, cell});
 }
 
 /* ----------------------------------------------------------------------
-   of all molecules of the group, in order of molecule ID
+   One rank has vertices of all cells, whatever moves. Others ask for cells that are new to them, in
+   messages of which there are none as long as no rank meets one.
 ------------------------------------------------------------------------- */
 
-std::vector<LocalCells::Extent> LocalCells::find_extents() const
+void LocalCells::meet_cells()
 {
-  std::vector<Extent> mine;
-  for (int i = 0; i < atom->nlocal; ++i) {
+  const int all = comm->nprocs > 1 ? atom->nlocal + atom->nghost : atom->nlocal;
+  bigint numbers[2] = {0, 0};    // of owned vertices and of cells that are unknown here
+  Known here;
+  std::vector<tagint> unknown;
+  tagint last = 0;
+  for (int i = 0; i < all; ++i) {
     if (!(atom->mask[i] & groupbit)) continue;
-    const tagint tag = atom->tag[i];
-    mine.push_back({std::max<tagint>(atom->molecule[i], 0), tag, tag, 1});
+    if (i < atom->nlocal) ++numbers[0];
+    const tagint molecule = atom->molecule[i];
+    if (comm->nprocs == 1 || molecule == std::exchange(last, molecule)) continue;
+    const auto found = known_cells.find(molecule);
+    if (found == known_cells.end())
+      unknown.push_back(molecule);
+    else
+      here.insert(*found);
   }
-  return gather_molecules(std::move(mine), world);
+  numbers[1] = static_cast<bigint>(unknown.size());
+  MPI_Allreduce(MPI_IN_PLACE, numbers, 2, MPI_LMP_BIGINT, MPI_SUM, world);
+  vertices_of_all = numbers[0];
+  if (comm->nprocs > 1) known_cells = std::move(here);
+  if (numbers[1] > 0) ask_for(std::move(unknown));
 }
 
-void LocalCells::Extent::include(const Extent &other)
-{
-  first = std::min(first, other.first);
-  last = std::max(last, other.last);
-  count += other.count;
-}
+/* ---------------------------------------------------------------------- */
 
 void LocalCells::update_ownership(bool bending)
 {
+  meet_cells();
   const std::vector<int> owned_count = find_owned();
   check_complete(owned_count);
   find_parts(owned_count, bending);
@@ -98,7 +104,7 @@ void LocalCells::update_ownership(bool bending)
 std::vector<int> LocalCells::find_owned()
 {
   const int size = shape.vertex_count();
-  std::vector<int> slot(molecule_ids.size(), -1);
+  std::unordered_map<tagint, int> places;
   std::vector<int> owned_count;
   CollectiveStop stop(lmp);
   local.clear();
@@ -106,29 +112,29 @@ std::vector<int> LocalCells::find_owned()
 
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & groupbit)) continue;
-    const auto found = index_of.find(atom->molecule[i]);
-    if (found == index_of.end()) {
+    const auto found = known_cells.find(atom->molecule[i]);
+    if (found == known_cells.end()) {
       stop.report(fmt::format(
           "{}: atom {} belongs to molecule {}, which was not there at the start of the run", style,
           atom->tag[i], atom->molecule[i]));
       continue;
     }
-    const int index = found->second;
-    const tagint vertex = atom->tag[i] - first_ids[index];
+    const auto &[molecule, first, index] = found->second;
+    const tagint vertex = atom->tag[i] - first;
     if (vertex < 0 || vertex >= size) {
       stop.report(
           fmt::format("{}: atom {} was not of the cell with molecule ID {} at the start of the run",
-                      style, atom->tag[i], atom->molecule[i]));
+                      style, atom->tag[i], molecule));
       continue;
     }
-    if (slot[index] < 0) {
-      slot[index] = static_cast<int>(local.size());
-      local.push_back({index, nullptr, nullptr, nullptr, Vec3::Zero(), false});
+    const auto [place, is_new] = places.insert({molecule, static_cast<int>(local.size())});
+    if (is_new) {
+      local.push_back({index, molecule, first, nullptr, nullptr, nullptr, Vec3::Zero(), false});
       owned_count.push_back(0);
       atoms.resize(atoms.size() + size, -1);
     }
-    ++owned_count[slot[index]];
-    atoms[std::size_t(slot[index]) * size + vertex] = i;
+    ++owned_count[place->second];
+    atoms[std::size_t(place->second) * size + vertex] = i;
   }
 
   stop.check();
@@ -154,7 +160,7 @@ void LocalCells::find_parts(const std::vector<int> &owned_count, bool bending)
     std::vector<char> owned(size);
     for (int v = 0; v < size; ++v) owned[v] = atoms[at + v] >= 0;
     local[c].shared = true;
-    find_neighbors(at, first_ids[local[c].index], owned, bending ? 2 : 1);
+    find_neighbors(at, local[c].first, owned, bending ? 2 : 1);
     parts.push_back(rbc::CellElements::part(shape, std::move(owned), bending));
     local[c].elements = &parts.back();
     check_neighbors(c, bending ? 3 : 2, stop);
@@ -169,25 +175,20 @@ void LocalCells::find_parts(const std::vector<int> &owned_count, bool bending)
 
 void LocalCells::check_complete(const std::vector<int> &owned_count) const
 {
-  bigint owned = 0, all;
-  for (int count : owned_count) owned += count;
-  MPI_Allreduce(&owned, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (all == static_cast<bigint>(molecule_ids.size()) * shape.vertex_count()) return;
+  if (vertices_of_all == count() * shape.vertex_count()) return;
 
-  std::vector<int> left(molecule_ids.size());
-  for (std::size_t c = 0; c < local.size(); ++c) left[local[c].index] = owned_count[c];
-  MPI_Allreduce(MPI_IN_PLACE, left.data(), static_cast<int>(left.size()), MPI_INT, MPI_SUM, world);
-  const auto broken = std::find_if(left.begin(), left.end(),
-                                   [this](int count) { return count < shape.vertex_count(); });
-  const int index = static_cast<int>(broken - left.begin());
+  std::vector<CellDirectory::Part> parts;
+  for (std::size_t c = 0; c < local.size(); ++c)
+    parts.push_back({local[c].molecule, owned_count[c]});
+  const CellDirectory::Part broken = directory.first_incomplete(std::move(parts));
   const std::string loss =
       fmt::format("{}: lost {} of {} vertices, which left the simulation box, at step {}: cell "
                   "with molecule ID {}",
-                  style, shape.vertex_count() - *broken, shape.vertex_count(), update->ntimestep,
-                  molecule_ids[index]);
+                  style, shape.vertex_count() - broken.vertices, shape.vertex_count(),
+                  update->ntimestep, broken.molecule);
   CollectiveStop stop(lmp);
   for (std::size_t c = 0; c < local.size(); ++c) {
-    if (local[c].index != index) continue;
+    if (local[c].molecule != broken.molecule) continue;
     const int *const known = &atoms[c * shape.vertex_count()];
     const double *const near =
         atom->x[*std::find_if(known, known + shape.vertex_count(), [](int i) { return i >= 0; })];
@@ -241,8 +242,8 @@ void LocalCells::check_neighbors(std::size_t c, int rings, CollectiveStop &stop)
                 "{}: ghost cutoff {} is too short at step {} for the cell with molecule ID {} near "
                 "({:.6g}, {:.6g}, {:.6g}): a neighbor of its vertices is unknown; its edges are "
                 "stretched too far, or use comm_modify cutoff (at rest at least {})",
-                style, comm->get_comm_cutoff(), update->ntimestep, molecule_ids[local[c].index],
-                near[0], near[1], near[2], rings * shape.longest_edge),
+                style, comm->get_comm_cutoff(), update->ntimestep, local[c].molecule, near[0],
+                near[1], near[2], rings * shape.longest_edge),
             Flaw::stretched);
 }
 
@@ -294,4 +295,10 @@ void LocalCells::gather(const Cell &cell, std::vector<Vec3> &x) const
 void LocalCells::sum_shared(std::vector<double> &values, int width)
 {
   sums.sum(values.data(), width);
+}
+
+double LocalCells::bytes() const
+{
+  return directory.bytes() +
+         static_cast<double>(known_cells.size() * (sizeof(Known::value_type) + 2 * sizeof(void *)));
 }

@@ -1,6 +1,7 @@
 #ifndef LMP_RBC_LOCAL_CELLS_H
 #define LMP_RBC_LOCAL_CELLS_H
 
+#include "cells/rbc_cell_directory.h"
 #include "cells/rbc_cell_images.h"
 #include "cells/rbc_shared_sums.h"
 #include "lmptype.h"
@@ -15,12 +16,14 @@ namespace LAMMPS_NS {
 
 /// The cells made from one template in a group, and what this rank holds of them. A vertex is known
 /// by its atom ID: those of a cell are consecutive, in the order of the template. Cells are
-/// numbered in order of molecule ID.
+/// numbered in order of molecule ID. A rank knows the number of all cells, and more only of those
+/// that it has atoms of.
 class LocalCells : protected Pointers {
  public:
   /// One cell of which this rank owns a vertex.
   struct Cell {
-    int index;    ///< among all cells
+    int index;                 ///< among all cells
+    tagint molecule, first;    ///< its ID and the lowest atom ID
     const rbc::CellElements *elements;
     const int *atom;            ///< local index of each vertex, -1 where unknown
     const rbc::Vec3 *offset;    ///< of each vertex, from LAMMPS's position to one near the origin
@@ -48,9 +51,18 @@ class LocalCells : protected Pointers {
   /// forces on a vertex reach its neighbors' neighbors.
   void update_ownership(bool bending);
 
-  const std::vector<tagint> &molecules() const { return molecule_ids; }
-  /// Lowest atom ID of each cell.
-  const std::vector<tagint> &first_atoms() const { return first_ids; }
+  /// Collective, where atoms may have changed since update_ownership(): learns of the cells that
+  /// atoms here belong to, ghosts too.
+  void meet_cells();
+
+  /// Of all ranks.
+  bigint count() const { return directory.count(); }
+  const CellDirectory &all() const { return directory; }
+
+  /// The cells that atoms here belong to, ghosts too, by molecule ID.
+  using Known = std::unordered_map<tagint, CellDirectory::Entry>;
+  const Known &known() const { return known_cells; }
+
   const std::vector<Cell> &cells() const { return local; }
 
   /// Writes to x, an entry for each vertex of the template, the positions relative to cell.origin.
@@ -67,21 +79,16 @@ class LocalCells : protected Pointers {
   /// The edge of all cells that is stretched most. Collective, after update_ownership().
   CellImages::Stretch largest_stretch() { return images.largest_stretch(*this); }
 
+  double bytes() const;
+
  private:
-  /// Atoms of a molecule: lowest and highest ID, and how many.
-  struct Extent {
-    tagint molecule, first, last;
-    bigint count;
-
-    void include(const Extent &other);
-  };
-
   const rbc::SurfaceTemplate &shape;
   int groupbit;
   std::string style;
 
-  std::vector<tagint> molecule_ids, first_ids;
-  std::unordered_map<tagint, int> index_of;    ///< cell index of a molecule ID
+  CellDirectory directory;
+  Known known_cells;
+  bigint vertices_of_all = 0;    ///< owned by all ranks, at the last meet_cells()
 
   std::vector<Cell> local;
   std::vector<int> atoms;
@@ -92,7 +99,7 @@ class LocalCells : protected Pointers {
   std::vector<rbc::CellElements> parts;
   SharedSums sums;
 
-  std::vector<Extent> find_extents() const;
+  void ask_for(std::vector<tagint> molecules);
   std::vector<int> find_owned();
   void find_parts(const std::vector<int> &owned_count, bool bending);
   void check_complete(const std::vector<int> &owned_count) const;

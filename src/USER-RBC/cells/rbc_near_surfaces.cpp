@@ -6,7 +6,7 @@
 #include "domain.h"
 #include "geometry/tight_vector.h"
 #include "neighbor.h"
-#include "support/rbc_gather.h"
+#include "support/rbc_molecule_shares.h"
 #include "update.h"
 
 #include <algorithm>
@@ -37,6 +37,14 @@ struct TypeRange {
   }
 };
 
+/// How many fixes rbc/membrane a cell belongs to.
+struct Holders {
+  tagint molecule;
+  int fixes;
+
+  void include(const Holders &other) { fixes += other.fixes; }
+};
+
 }    // namespace
 
 /* ---------------------------------------------------------------------- */
@@ -58,33 +66,48 @@ void NearSurfaces::init()
     std::vector<std::vector<int>> triangles_by_first_vertex(surface.vertex_count());
     for (std::size_t t = 0; t < surface.triangles.size(); ++t)
       triangles_by_first_vertex[surface.triangles[t][0]].push_back(static_cast<int>(t));
-    shapes.push_back({&surface, std::move(triangles_by_first_vertex), {}, {}});
+    shapes.push_back({membranes, &surface, std::move(triangles_by_first_vertex), {}, {}});
     find_fans(shapes.back());
     if (own_patch > 0) find_own_patches(shapes.back());
-    add_cells(*membranes, static_cast<int>(shapes.size()) - 1);
   }
   if (shapes.empty())
     error->all(FLERR, "{} needs a fix rbc/membrane: it knows the cells and their triangles", style);
+  check_apart();
+  take_cells();
 }
 
 void NearSurfaces::cells_changed()
 {
-  cells.clear();
-  int shape = 0;
-  for (CellMembranes *membranes : all_cell_membranes(lmp)) add_cells(*membranes, shape++);
+  check_apart();
 }
 
-void NearSurfaces::add_cells(CellMembranes &membranes, int shape)
+void NearSurfaces::check_apart() const
 {
-  const auto &molecules = membranes.local_cells().molecules();
-  const auto &first = membranes.local_cells().first_atoms();
-  for (std::size_t n = 0; n < molecules.size(); ++n)
-    if (!cells
-             .insert({molecules[n],
-                      {shape, first[n], static_cast<rbc::NearTriangles::Surface>(cells.size())}})
-             .second)
-      error->all(FLERR, "{}: molecule ID {} belongs to two fixes rbc/membrane", style,
-                 molecules[n]);
+  if (shapes.size() < 2) return;
+  std::vector<Holders> held;
+  for (const Shape &shape : shapes)
+    for (tagint molecule : shape.membranes->local_cells().all().kept())
+      held.push_back({molecule, 1});
+  tagint twice = MAXTAGINT;
+  for (const Holders &cell : share_molecules(lmp, std::move(held)))
+    if (cell.fixes > 1) twice = std::min(twice, cell.molecule);
+  MPI_Allreduce(MPI_IN_PLACE, &twice, 1, MPI_LMP_TAGINT, MPI_MIN, world);
+  if (twice != MAXTAGINT)
+    error->all(FLERR, "{}: molecule ID {} belongs to two fixes rbc/membrane", style, twice);
+}
+
+void NearSurfaces::take_cells()
+{
+  cells.clear();
+  bigint before = 0;    // cells of other shapes
+  for (std::size_t n = 0; n < shapes.size(); ++n) {
+    const LocalCells &local = shapes[n].membranes->local_cells();
+    for (const auto &[molecule, cell] : local.known()) {
+      const auto number = static_cast<rbc::NearTriangles::Surface>(before + cell.index);
+      cells.insert({molecule, {static_cast<int>(n), cell.first, number}});
+    }
+    before += local.count();
+  }
 }
 
 void NearSurfaces::find_fans(Shape &shape) const
@@ -136,9 +159,11 @@ tagint NearSurfaces::cell_of_mixed_type() const
   std::vector<TypeRange> mine;
   for (int i = 0; i < atom->nlocal; ++i)
     if (is_vertex(i)) mine.push_back({atom->molecule[i], atom->type[i], atom->type[i]});
-  for (const TypeRange &cell : gather_molecules(std::move(mine), world))
-    if (cell.lowest != cell.highest) return cell.molecule;
-  return 0;
+  tagint first = MAXTAGINT;
+  for (const TypeRange &cell : share_molecules(lmp, std::move(mine)))
+    if (cell.lowest != cell.highest) first = std::min(first, cell.molecule);
+  MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_LMP_TAGINT, MPI_MIN, world);
+  return first == MAXTAGINT ? 0 : first;
 }
 
 double NearSurfaces::area(int i) const
@@ -172,6 +197,9 @@ void NearSurfaces::build(double range, double slack_of_ghosts, double stale)
   ++build_count;
   allowed = slack_of_ghosts / 2;
   built.hold(atom->nlocal > 0 ? atom->x[0] : nullptr, atom->nlocal);
+  if (update->whichflag == 0)    // between runs
+    for (const Shape &shape : shapes) shape.membranes->local_cells().meet_cells();
+  take_cells();
   rbc::resize_tightly(cell_at, atom->nlocal + atom->nghost);
   for (std::size_t i = 0; i < cell_at.size(); ++i) cell_at[i] = cell_of(static_cast<int>(i));
   collect_triangles(longest_known_edge(range, slack_of_ghosts + stale));

@@ -35,7 +35,7 @@ class NearSurfaces : protected Pointers {
   void init();
 
   /// Collective, within a run, once the membranes know of cells that were added or removed. Call
-  /// build() next.
+  /// build() next, before anything else.
   void cells_changed();
 
   /// Largest length of an edge that is allowed: 1.5 times that of the longest edge of the cells at
@@ -103,6 +103,7 @@ class NearSurfaces : protected Pointers {
     rbc::NearTriangles::Surface number;    ///< the same on all ranks
   };
   struct Shape {
+    CellMembranes *membranes;
     const rbc::SurfaceTemplate *surface;
     std::vector<std::vector<int>>
         triangles_by_first_vertex;    ///< triangles of which a vertex is the first corner
@@ -116,7 +117,7 @@ class NearSurfaces : protected Pointers {
   std::string style;
   std::shared_ptr<CollectiveStop> stop;
   std::vector<Shape> shapes;
-  std::unordered_map<tagint, Cell> cells;    ///< by molecule ID
+  std::unordered_map<tagint, Cell> cells;    ///< that have atoms here, by molecule ID
   std::vector<const Cell *> cell_at;         ///< at build(), of all atoms here, ghosts too
   rbc::NearTriangles finder;
   std::vector<rbc::NearTriangles::Triangle> triangles;
@@ -131,7 +132,8 @@ class NearSurfaces : protected Pointers {
   const Cell *cell_of(int i) const;
   double longest_known_edge(double range, double slack) const;
   void collect_triangles(double longest);
-  void add_cells(CellMembranes &membranes, int shape);
+  void check_apart() const;
+  void take_cells();
   void find_fans(Shape &shape) const;
   void find_own_patches(Shape &shape) const;
   int image_near(int i, tagint id, double longest) const;

@@ -5,8 +5,9 @@
 #include "comm.h"
 #include "error.h"
 #include "molecule.h"
-#include "support/rbc_gather.h"
+#include "support/rbc_molecule_shares.h"
 
+#include <algorithm>
 #include <set>
 #include <utility>
 #include <vector>
@@ -45,12 +46,15 @@ void LAMMPS_NS::warn_of_unheld_cells(LAMMPS *lmp, const std::string &style, int 
   for (int i = 0; i < atom->nlocal; ++i)
     if ((atom->mask[i] & groupbit) && !(atom->mask[i] & held) && atom->molecule[i] > 0)
       mine.push_back({atom->molecule[i], 1});
-  tagint first = 0;
-  int cells = 0;
-  for (const MoleculeSize &size : gather_molecules(std::move(mine), lmp->world)) {
+  tagint first = MAXTAGINT;
+  bigint cells = 0;
+  for (const MoleculeSize &size : share_molecules(lmp, std::move(mine))) {
     if (sizes.count(size.atoms) == 0) continue;
-    if (++cells == 1) first = size.molecule;
+    first = std::min(first, size.molecule);
+    ++cells;
   }
+  MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_LMP_TAGINT, MPI_MIN, lmp->world);
+  MPI_Allreduce(MPI_IN_PLACE, &cells, 1, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
   if (cells == 0 || lmp->comm->me != 0) return;
   lmp->error->warning(FLERR,
                       "{} moves {} cell{} without a membrane (the first has molecule ID {}): no "

@@ -2,65 +2,84 @@
 
 #include "atom.h"
 #include "cells/rbc_local_cells.h"
-#include "comm.h"
 #include "lammps.h"
 #include "support/rbc_gather.h"
+
+#include <algorithm>
 
 using namespace LAMMPS_NS;
 using rbc::Vec3;
 
 namespace {
 
+struct Head {
+  tagint molecule;
+  double centre[3];
+};
+
 struct Vertex {
-  int cell, number;
+  tagint molecule;
+  int number;
   double x[3];
 };
 
-/// Calls visit(cell, vertex, place) for each vertex that this rank owns.
-template <typename Visit>
-void visit_owned(const LocalCells &cells, int vertices, const double *const *x, Visit visit)
+template <typename Element> bool is_before(const Element &a, const Element &b)
 {
-  for (const LocalCells::Cell &cell : cells.cells())
-    for (int v = 0; v < vertices; ++v)
-      if (cell.elements->owned[v]) visit(cell.index, v, cell.position(v, x));
+  return a.molecule < b.molecule;
 }
 
 }    // namespace
 
-std::vector<Vec3> LAMMPS_NS::centres_on_first(LAMMPS *lmp, const LocalCells &cells, int vertices)
+std::vector<Vec3> LAMMPS_NS::cell_centres(const LAMMPS *lmp, LocalCells &cells, int vertices)
 {
-  const std::size_t count = cells.molecules().size();
-  std::vector<double> mine(3 * count), sums(mine.size());
-  visit_owned(cells, vertices, lmp->atom->x, [&](int cell, int, const Vec3 &x) {
-    for (int d = 0; d < 3; ++d) mine[3 * cell + d] += x[d] / vertices;
-  });
-  MPI_Reduce(mine.data(), sums.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM, 0,
-             lmp->world);
+  const auto &local = cells.cells();
+  std::vector<double> sums(3 * local.size());
+  for (std::size_t c = 0; c < local.size(); ++c)
+    for (int v = 0; v < vertices; ++v) {
+      if (!local[c].elements->owned[v]) continue;
+      const Vec3 x = local[c].position(v, lmp->atom->x);
+      for (int d = 0; d < 3; ++d) sums[3 * c + d] += x[d] / vertices;
+    }
+  cells.sum_shared(sums, 3);
   std::vector<Vec3> centres;
-  if (lmp->comm->me == 0)
-    for (std::size_t c = 0; c < count; ++c) centres.emplace_back(&sums[3 * c]);
+  for (std::size_t c = 0; c < local.size(); ++c) centres.emplace_back(&sums[3 * c]);
   return centres;
 }
 
-std::vector<std::vector<Vec3>> LAMMPS_NS::vertices_on_first(LAMMPS *lmp, const LocalCells &cells,
-                                                            int vertices, std::vector<char> wanted)
+bool LAMMPS_NS::speaks_for(const LocalCells &cells, std::size_t c)
 {
-  wanted.resize(cells.molecules().size());
-  MPI_Bcast(wanted.data(), static_cast<int>(wanted.size()), MPI_CHAR, 0, lmp->world);
-  std::vector<Vertex> mine;
-  visit_owned(cells, vertices, lmp->atom->x, [&](int cell, int v, const Vec3 &x) {
-    if (wanted[cell]) mine.push_back({cell, v, {x[0], x[1], x[2]}});
-  });
-  const std::vector<Vertex> all = gather_on_first(mine, lmp->world);
+  return cells.cells()[c].elements->owned[0] != 0;
+}
 
-  std::vector<std::vector<Vec3>> found;
-  if (lmp->comm->me != 0) return found;
-  std::vector<int> place(wanted.size(), -1);
+std::vector<WholeCell> LAMMPS_NS::whole_cells_on_first(const LAMMPS *lmp, const LocalCells &cells,
+                                                       int vertices,
+                                                       const std::vector<Vec3> &centres,
+                                                       const std::vector<char> &wanted)
+{
+  std::vector<Head> heads;
+  std::vector<Vertex> parts;
   for (std::size_t c = 0; c < wanted.size(); ++c) {
     if (!wanted[c]) continue;
-    place[c] = static_cast<int>(found.size());
-    found.emplace_back(vertices);
+    const LocalCells::Cell &cell = cells.cells()[c];
+    const Vec3 &centre = centres[c];
+    if (speaks_for(cells, c)) heads.push_back({cell.molecule, {centre[0], centre[1], centre[2]}});
+    for (int v = 0; v < vertices; ++v) {
+      if (!cell.elements->owned[v]) continue;
+      const Vec3 x = cell.position(v, lmp->atom->x);
+      parts.push_back({cell.molecule, v, {x[0], x[1], x[2]}});
+    }
   }
-  for (const Vertex &vertex : all) found[place[vertex.cell]][vertex.number] = Vec3(vertex.x);
-  return found;
+  heads = gather_on_first(heads, lmp->world);
+  parts = gather_on_first(parts, lmp->world);
+
+  std::sort(heads.begin(), heads.end(), is_before<Head>);
+  std::sort(parts.begin(), parts.end(), is_before<Vertex>);
+  std::vector<WholeCell> whole;
+  auto part = parts.begin();
+  for (const Head &head : heads) {
+    whole.push_back({head.molecule, Vec3(head.centre), std::vector<Vec3>(vertices)});
+    for (; part != parts.end() && part->molecule == head.molecule; ++part)
+      whole.back().vertices[part->number] = Vec3(part->x);
+  }
+  return whole;
 }

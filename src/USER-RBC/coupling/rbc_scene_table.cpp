@@ -103,7 +103,7 @@ void SceneTable::find_kinds(const DrivenFlow &flow)
   kinds_.clear();
   const double stress = flow.settings().equations.viscosity * shear_rate_ / force->ftm2v;
   for (CellMembranes *membranes : all_cell_membranes(lmp)) {
-    const double count = static_cast<double>(membranes->local_cells().molecules().size());
+    const double count = static_cast<double>(membranes->local_cells().count());
     const double radius = std::cbrt(0.75 / MathConst::MY_PI * membranes->shape().volume);
     kinds_.push_back({membranes, count, stress * radius / membranes->shear_modulus(), {}});
   }

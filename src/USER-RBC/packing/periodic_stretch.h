@@ -20,6 +20,12 @@ class PeriodicStretch {
   /// From 0 to `length`. Copies that are late by more than `patience` are given up.
   PeriodicStretch(double length, double patience) : length_(length), patience_(patience) {}
 
+  /// Whether follow() does the same without this cell.
+  bool is_elsewhere(const Cell &cell) const
+  {
+    return cell.beside || cell.along < 0 || cell.along >= length_ + patience_;
+  }
+
   /// All cells there are, at a later time.
   void follow(const std::vector<Cell> &cells);
 

@@ -3,7 +3,6 @@
 
 #include <mpi.h>
 
-#include <algorithm>
 #include <type_traits>
 #include <vector>
 
@@ -44,32 +43,6 @@ std::vector<Element> gather_on_first(const std::vector<Element> &mine, MPI_Comm 
   std::vector<Element> all(me == 0 ? (begins.back() + counts.back()) / sizeof(Element) : 0);
   MPI_Gatherv(mine.data(), bytes, MPI_BYTE, all.data(), counts.data(), begins.data(), MPI_BYTE, 0,
               world);
-  return all;
-}
-
-/// What the elements of one molecule tell together, in order of molecule ID. Element has a member
-/// `molecule` and adds another's part by include().
-template <typename Element> void merge_molecules(std::vector<Element> &elements)
-{
-  std::sort(elements.begin(), elements.end(),
-            [](const Element &a, const Element &b) { return a.molecule < b.molecule; });
-  std::size_t count = 0;
-  for (const Element &element : elements)
-    if (count > 0 && elements[count - 1].molecule == element.molecule)
-      elements[count - 1].include(element);
-    else
-      elements[count++] = element;
-  elements.resize(count);
-}
-
-/// Collective: the same for the elements of all ranks. Memory goes with the number of molecules,
-/// however large their IDs are.
-template <typename Element>
-std::vector<Element> gather_molecules(std::vector<Element> mine, MPI_Comm world)
-{
-  merge_molecules(mine);
-  std::vector<Element> all = gather_all(mine, world);
-  merge_molecules(all);
   return all;
 }
 
