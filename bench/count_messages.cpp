@@ -1,12 +1,14 @@
 // To be preloaded: counts the messages that a program sends. Rank 0 writes a line for each kind of
 // message to the file that COUNT_MESSAGES names: the kind, messages and bytes in the mean over the
-// ranks, and the most messages and bytes of any rank.
+// ranks, and the most messages and bytes of any rank. Of a collective call the bytes count that the
+// rank gets, where these are more than it gives.
 
 #include <mpi.h>
 
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <numeric>
 
 namespace {
 
@@ -36,6 +38,13 @@ void count(Kind kind, int number, MPI_Datatype type)
   PMPI_Type_size(type, &size);
   counted[2 * kind] += 1;
   counted[2 * kind + 1] += static_cast<double>(number) * size;
+}
+
+int size_of(MPI_Comm comm)
+{
+  int ranks;
+  PMPI_Comm_size(comm, &ranks);
+  return ranks;
 }
 
 }    // namespace
@@ -74,23 +83,28 @@ int MPI_Allreduce(const void *from, void *into, int number, MPI_Datatype type, M
 int MPI_Allgather(const void *from, int number, MPI_Datatype type, void *into, int most,
                   MPI_Datatype into_type, MPI_Comm comm)
 {
-  count(COLLECTIVE, number, type);
+  count(COLLECTIVE, most * size_of(comm), into_type);
   return PMPI_Allgather(from, number, type, into, most, into_type, comm);
 }
 
 int MPI_Allgatherv(const void *from, int number, MPI_Datatype type, void *into, const int *most,
                    const int *begins, MPI_Datatype into_type, MPI_Comm comm)
 {
-  count(COLLECTIVE, number, type);
+  count(COLLECTIVE, std::accumulate(most, most + size_of(comm), 0), into_type);
   return PMPI_Allgatherv(from, number, type, into, most, begins, into_type, comm);
+}
+
+int MPI_Reduce(const void *from, void *into, int number, MPI_Datatype type, MPI_Op op, int root,
+               MPI_Comm comm)
+{
+  count(COLLECTIVE, number, type);
+  return PMPI_Reduce(from, into, number, type, op, root, comm);
 }
 
 int MPI_Reduce_scatter(const void *from, void *into, const int *numbers, MPI_Datatype type,
                        MPI_Op op, MPI_Comm comm)
 {
-  int ranks;
-  PMPI_Comm_size(comm, &ranks);
-  count(COLLECTIVE, ranks, type);
+  count(COLLECTIVE, size_of(comm), type);
   return PMPI_Reduce_scatter(from, into, numbers, type, op, comm);
 }
 

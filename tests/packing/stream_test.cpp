@@ -8,6 +8,8 @@
 #include "packing/stream_ledger.h"
 #include "packing/surface_gap.h"
 
+#include <cmath>
+
 using namespace test;
 using rbc::CellPlacement;
 using rbc::StreamLedger;
@@ -220,6 +222,27 @@ TEST(PeriodicStretch, CellsThatLeaveItWaitForACopy)
   stretch.follow(Cells{{1, 9, false}, {5, 0.1, false}});
   stretch.follow(Cells{{1, 11, false}});    // came back; 5 has gone
   EXPECT_EQ(stretch.waiting(), IDs{1});
+}
+
+TEST(PeriodicStretch, CellsElsewhereMayBeLeftOut)
+{
+  rbc::PeriodicStretch all(10, 2), some(10, 2);
+  int left_out = 0, waited = 0;
+  for (int time = 0; time < 60; ++time) {
+    Cells cells, near;
+    for (int id = 1; id <= 20; ++id) {
+      const double along = 7 + 9 * std::sin(0.13 * id * time + id);
+      cells.push_back({id, along, id % 7 == time % 7});
+      if (!all.is_elsewhere(cells.back())) near.push_back(cells.back());
+    }
+    all.follow(cells);
+    some.follow(near);
+    EXPECT_EQ(some.state(), all.state());
+    left_out += static_cast<int>(cells.size() - near.size());
+    waited += static_cast<int>(all.waiting().size());
+  }
+  EXPECT_GT(left_out, 100);
+  EXPECT_GT(waited, 20);
 }
 
 TEST(PeriodicStretch, GoesOnFromItsState)

@@ -50,8 +50,8 @@ void LocalCells::ask_for(std::vector<tagint> molecules)
 {
   std::sort(molecules.begin(), molecules.end());
   molecules.erase(std::unique(molecules.begin(), molecules.end()), molecules.end());
-  for (const CellDirectory::Entry &cell : directory.find(molecules))
-    known_cells.insert({cell.molecule, cell});
+  for (const auto &[molecule, first, index] : directory.find(molecules))
+    known_cells.insert({molecule, {first, index, -1}});
 }
 
 /* ----------------------------------------------------------------------
@@ -104,11 +104,11 @@ void LocalCells::update_ownership(bool bending)
 std::vector<int> LocalCells::find_owned()
 {
   const int size = shape.vertex_count();
-  std::unordered_map<tagint, int> places;
   std::vector<int> owned_count;
   CollectiveStop stop(lmp);
   local.clear();
   atoms.clear();
+  for (auto &known : known_cells) known.second.place = -1;
 
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & groupbit)) continue;
@@ -119,22 +119,23 @@ std::vector<int> LocalCells::find_owned()
           atom->tag[i], atom->molecule[i]));
       continue;
     }
-    const auto &[molecule, first, index] = found->second;
-    const tagint vertex = atom->tag[i] - first;
+    KnownCell &cell = found->second;
+    const tagint vertex = atom->tag[i] - cell.first;
     if (vertex < 0 || vertex >= size) {
       stop.report(
           fmt::format("{}: atom {} was not of the cell with molecule ID {} at the start of the run",
-                      style, atom->tag[i], molecule));
+                      style, atom->tag[i], atom->molecule[i]));
       continue;
     }
-    const auto [place, is_new] = places.insert({molecule, static_cast<int>(local.size())});
-    if (is_new) {
-      local.push_back({index, molecule, first, nullptr, nullptr, nullptr, Vec3::Zero(), false});
+    if (cell.place < 0) {
+      cell.place = static_cast<int>(local.size());
+      local.push_back(
+          {cell.index, found->first, cell.first, nullptr, nullptr, nullptr, Vec3::Zero(), false});
       owned_count.push_back(0);
       atoms.resize(atoms.size() + size, -1);
     }
-    ++owned_count[place->second];
-    atoms[std::size_t(place->second) * size + vertex] = i;
+    ++owned_count[cell.place];
+    atoms[std::size_t(cell.place) * size + vertex] = i;
   }
 
   stop.check();

@@ -60,7 +60,12 @@ class LocalCells : protected Pointers {
   const CellDirectory &all() const { return directory; }
 
   /// The cells that atoms here belong to, ghosts too, by molecule ID.
-  using Known = std::unordered_map<tagint, CellDirectory::Entry>;
+  struct KnownCell {
+    tagint first;    ///< lowest atom ID
+    int index;       ///< among all cells
+    int place;       ///< in cells(), -1 where all atoms here are ghosts
+  };
+  using Known = std::unordered_map<tagint, KnownCell>;
   const Known &known() const { return known_cells; }
 
   const std::vector<Cell> &cells() const { return local; }
