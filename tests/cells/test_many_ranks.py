@@ -1,5 +1,5 @@
-"""What a rank holds and sends does not grow with the cells of other ranks: a row of ranks, each with
-as many cells, that is made longer. A list of all cells on every rank would grow with it."""
+"""What a rank holds and sends does not grow with the cells of other ranks: a row of ranks, each
+with as many cells, that is made longer. A list of all cells on every rank would grow with it."""
 
 import os
 import re

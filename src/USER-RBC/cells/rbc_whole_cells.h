@@ -25,8 +25,8 @@ struct WholeCell {
   std::vector<rbc::Vec3> vertices;
 };
 
-/// The cells that are wanted, a number for each of cells.cells(), in order of molecule ID. All ranks
-/// that have parts of a cell want it or do not. Only rank 0 gets them. Collective.
+/// The cells that are wanted, a number for each of cells.cells(), in order of molecule ID. All
+/// ranks that have parts of a cell want it or do not. Only rank 0 gets them. Collective.
 std::vector<WholeCell> whole_cells_on_first(const LAMMPS *lmp, const LocalCells &cells,
                                             int vertices, const std::vector<rbc::Vec3> &centres,
                                             const std::vector<char> &wanted);

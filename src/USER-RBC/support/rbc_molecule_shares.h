@@ -26,8 +26,8 @@ template <typename Element> void merge_molecules(std::vector<Element> &elements)
   elements.resize(count);
 }
 
-/// Gives each molecule ID to a rank, IDs that are larger to the same rank or one after it. Ranks get
-/// about as many molecules of a scene each, whatever their IDs are.
+/// Gives each molecule ID to a rank, IDs that are larger to the same rank or one after it. Ranks
+/// get about as many molecules of a scene each, whatever their IDs are.
 class MoleculeShares : protected Pointers {
  public:
   explicit MoleculeShares(LAMMPS *lmp) : Pointers(lmp) {}
