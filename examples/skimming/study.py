@@ -3,7 +3,9 @@
 vessel parts, beside the law of Pries et al.
 
 Runs in.skimming for each share, in a folder of its own, or goes on with it from its last restart
-file until --steps. Writes skimming.csv and skimming.png from the skimming.dat that are there.
+file until --steps. A share below a half begins with the cells of the one above it where that has
+ended: which side they have come to lie on then counts once for each daughter. Writes skimming.csv
+and skimming.png from the skimming.dat that are there.
 
 study.py --output FOLDER [--folder RUNS] [--steps N] [--lmp ../../build/lmp_rbc] [--only 0.9]
 """
@@ -19,6 +21,9 @@ import example_study  # noqa: E402
 # of in.skimming and segments.csv, in um
 HEMATOCRIT, FEED, DAUGHTER, VOLUME = 0.2, 20.0, 16.0, 89.31
 CASES = {"0.9": 4711, "0.75": 4712, "0.6": 4713}    # share of the first daughter: seed
+MIRRORED = {"0.1": "0.9", "0.25": "0.75", "0.4": "0.6"}    # share: whose cells it goes on with
+TABLE = "skimming.dat"
+TURNED = 3.0e3    # volume that enters, um^3, before cells count where the shares have changed
 BLOCKS = 10       # parts of a run between which cells that went into a daughter are compared
 
 
@@ -67,25 +72,44 @@ def skimmed(rows, begin):
     late = rows["volume"] >= begin
     times = np.linspace(0, late.sum() - 1, BLOCKS + 1).round().astype(int)
     cells = np.diff(rows["into"][late][times], axis=0)
-    total, flows = cells.sum(axis=0), np.diff(rows["volumes"][late][[0, -1]], axis=0)[0]
+    return account(cells, np.diff(rows["volumes"][late][[0, -1]], axis=0)[0])
+
+
+def both(row, mirrored):
+    """Of a share and of its mirror image, whose daughters change places."""
+    return account(np.concatenate([row["blocks"], mirrored["blocks"][:, ::-1]]),
+                   row["flows"] + mirrored["flows"][::-1])
+
+
+def account(cells, flows):
+    """Of cells that went into the first and the second daughter in each block, and of the volumes
+    of blood that did so in all."""
+    total, blocks = cells.sum(axis=0), len(cells)
     part = total[0] / total.sum()
     likely = (total[0] + 1) / (total.sum() + 2)    # Laplace's rule: if all went there, one may not
     counted = np.sqrt(likely * (1 - likely) / (total.sum() + 2))
     off = cells[:, 0] - part * cells.sum(axis=1)
-    between = np.sqrt((off**2).sum() * BLOCKS / (BLOCKS - 1)) / total.sum()
+    between = np.sqrt((off**2).sum() * blocks / (blocks - 1)) / total.sum()
     return dict(share=flows[0] / flows.sum(), cells=total.sum(), first=total[0], part=part,
                 error=max(counted, between), counted=counted, between=between,
                 hematocrit1=total[0] * VOLUME / flows[0], hematocrit2=total[1] * VOLUME / flows[1],
-                feed=total.sum() * VOLUME / flows.sum())
+                feed=total.sum() * VOLUME / flows.sum(), blocks=cells, flows=flows)
 
 
 def run(arguments, share, folder):
-    """Begins, or goes on from the last restart file."""
+    """Begins, or goes on from the last restart file; makes --steps in all, behind those of the run
+    whose cells it has."""
     folder.mkdir(parents=True, exist_ok=True)
-    places = dict(tables=HERE, scripts=HERE.parents[1] / "scripts", steps=arguments.steps,
-                  share=share, seed=CASES[share])
-    if (folder / "last.restart").exists():
-        places["from"] = "last.restart"
+    before = folder.parent / MIRRORED.get(share, share)
+    places = dict(tables=HERE, scripts=HERE.parents[1] / "scripts", share=share,
+                  seed=CASES[before.name], steps=arguments.steps)
+    kept = [place / "last.restart" for place in (folder, before)]
+    begun = next((file for file in kept if file.exists()), None)
+    if begun:
+        places["from"] = begun.resolve()
+    if share in MIRRORED:
+        steps = read(begun.parent / TABLE)["step"]
+        places["steps"] += round(steps[0 if begun.parent == folder else -1])
     pieces = len(list(folder.glob("log.*")))
     example_study.run_script(arguments, HERE / "in.skimming", folder, places,
                              log=f"log.{pieces + 1}").check_returncode()
@@ -95,13 +119,39 @@ def law(function, share):
     return float(function(share, HEMATOCRIT, FEED, DAUGHTER, DAUGHTER))
 
 
+def collected(arguments):
+    """{share: numbers} of the runs that are there, and of both where there are two with it."""
+    results = {}
+    for share in (*CASES, *MIRRORED):
+        table = example_study.runs_folder(arguments) / share / TABLE
+        if table.exists():
+            rows = read(table)
+            begin = arguments.skip if share in CASES else rows["volume"][0] + TURNED
+            if rows["volume"][-1] > begin:
+                results[share] = skimmed(rows, begin)
+    for share, other in MIRRORED.items():
+        if share in results and other in results:
+            results[f"{other} both"] = both(results[other], results[share])
+    for row in results.values():
+        for function in (pries_2005, pries_1989):
+            row[function.__name__] = float(function(row["share"], HEMATOCRIT, FEED, DAUGHTER,
+                                                    DAUGHTER))
+    return results
+
+
 def report(results):
     print("share of the blood, cells, part of them, by counting and between blocks +-, Pries 2005, "
           "1989; discharge hematocrits of the daughters and of both")
-    for row in results.values():
-        print(f"{row['share']:.4f} {row['cells']:6.1f}  {row['part']:.3f} +- {row['counted']:.3f} "
-              f"{row['between']:.3f}  {row['pries2005']:.3f} {row['pries1989']:.3f}   "
+    for name, row in results.items():
+        print(f"{name:9} {row['cells']:6.1f}  {row['part']:.3f} +- {row['counted']:.3f} "
+              f"{row['between']:.3f}  {row['pries_2005']:.3f} {row['pries_1989']:.3f}   "
               f"{row['hematocrit1']:.3f} {row['hematocrit2']:.3f} {row['feed']:.3f}")
+
+
+def shown(results):
+    """Of each share the one with most cells."""
+    return {name: row for name, row in results.items() if f"{name} both" not in results
+            and not (name in MIRRORED and MIRRORED[name] in results)}
 
 
 def plot(results, path):
@@ -135,27 +185,23 @@ def plot(results, path):
 
 
 def main():
-    parser = example_study.options(__doc__, list(CASES))
+    parser = example_study.options(__doc__, [*CASES, *MIRRORED])
     example_study.add_runs_folder(parser)
-    parser.add_argument("--steps", type=int, help="number of the last step; default: read runs")
-    parser.add_argument("--skip", type=float, default=5.0e4,
-                        help="volume that enters before cells are counted, um^3 (5.0e4)")
+    parser.add_argument("--steps", type=int, help="of each run; default: read those that are there")
+    parser.add_argument("--skip", type=float, default=1.5e4,
+                        help="volume that enters before cells are counted, um^3 (1.5e4)")
     arguments = command_line.parse(parser, HERE)
-    results = {}
-    for share in CASES:
-        folder = example_study.runs_folder(arguments) / share
-        if arguments.steps and example_study.wanted(arguments, share):
-            run(arguments, share, folder)
-        if (folder / "skimming.dat").exists():
-            row = skimmed(read(folder / "skimming.dat"), arguments.skip)
-            laws = dict(pries2005=law(pries_2005, row["share"]),
-                        pries1989=law(pries_1989, row["share"]))
-            results[share] = {**row, **laws}
+    for share in (*CASES, *MIRRORED) if arguments.steps else ():
+        if example_study.wanted(arguments, share):
+            run(arguments, share, example_study.runs_folder(arguments) / share)
+    results = collected(arguments)
     if not results:
-        parser.error("there are no runs; --steps 1500 makes them")
+        parser.error("there are no runs; --steps 700 makes them")
     report(results)
-    example_study.write_rows(results, arguments.output / "skimming.csv")
-    plot(results, arguments.output / "skimming.png")
+    numbers = {name: {key: value for key, value in row.items() if np.ndim(value) == 0}
+               for name, row in results.items()}
+    example_study.write_rows(numbers, arguments.output / "skimming.csv")
+    plot(shown(results), arguments.output / "skimming.png")
 
 
 if __name__ == "__main__":

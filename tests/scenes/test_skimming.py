@@ -79,6 +79,16 @@ class Counting(unittest.TestCase):
         self.assertAlmostEqual(row["feed"], study.VOLUME / 500)
         self.assertAlmostEqual(0.7 * row["hematocrit1"] + 0.3 * row["hematocrit2"], row["feed"])
 
+    def test_a_side_that_cells_prefer(self):
+        """A share and its mirror image: what draws cells to one side drops out."""
+        study, steps = study_of("skimming"), np.arange(0, 201)
+        rows = [dict(volume=steps, into=np.outer(steps, into), volumes=np.outer(steps, flow))
+                for into, flow in (([0.75, 0.25], [0.7, 0.3]), ([0.35, 0.65], [0.3, 0.7]))]
+        row = study.both(*(study.skimmed(part, 0) for part in rows))
+        self.assertAlmostEqual(row["share"], 0.7)
+        self.assertAlmostEqual(row["part"], 0.7)
+        self.assertAlmostEqual(row["cells"], 400)
+
     def test_all_into_one(self):
         study, steps = study_of("skimming"), np.arange(0, 81)
         row = study.skimmed(dict(volume=steps, into=np.outer(steps, [1, 0]),
