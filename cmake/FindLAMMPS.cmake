@@ -37,11 +37,12 @@ if(LAMMPS_DEBIAN)
   pkg_check_modules(DEBIAN_LAMMPS REQUIRED liblammps)
   file(STRINGS ${LAMMPS_SOURCE_DIR}/src/version.h version REGEX LAMMPS_VERSION)
   string(REGEX REPLACE ".*\"(.*)\".*" "\\1" version "${version}")
-  execute_process(COMMAND date -u -d "${version}" +%Y%m%d OUTPUT_VARIABLE version
-    OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
-  if(NOT version EQUAL DEBIAN_LAMMPS_VERSION)
-    message(FATAL_ERROR
-      "LAMMPS_SOURCE_DIR is of version ${version}, liblammps of ${DEBIAN_LAMMPS_VERSION}")
+  # 20250204 to pkg-config, 2026.7.4 and the number of an update since 2026
+  execute_process(COMMAND date -u -d "${version}" "+%Y%m%d|%Y[.]%-m[.]%-d[.][0-9]+"
+    OUTPUT_VARIABLE dates OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX REPLACE "[|].*" "" LAMMPS_DATE "${dates}")
+  if(NOT DEBIAN_LAMMPS_VERSION MATCHES "^(${dates})$")
+    message(FATAL_ERROR "LAMMPS_SOURCE_DIR is of ${version}, liblammps of ${DEBIAN_LAMMPS_VERSION}")
   endif()
   if(DEBIAN_LAMMPS_CFLAGS_OTHER MATCHES "LAMMPS_([A-Z]+)")
     set(sizes ${CMAKE_MATCH_1})

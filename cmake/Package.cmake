@@ -18,9 +18,9 @@ if(LAMMPS_DEBIAN)    # one version of LAMMPS differs from the next under the sam
   file(REAL_PATH ${library} real)
   execute_process(COMMAND dpkg-query -S ${real} OUTPUT_VARIABLE package COMMAND_ERROR_IS_FATAL ANY)
   string(REGEX REPLACE ":.*" "" package ${package})
-  math(EXPR next "${DEBIAN_LAMMPS_VERSION} + 1")
+  math(EXPR next "${LAMMPS_DATE} + 1")
   set(CPACK_DEBIAN_PACKAGE_DEPENDS
-    "${package} (>= ${DEBIAN_LAMMPS_VERSION}), ${package} (<< ${next})")
+    "${package} (>= ${LAMMPS_DATE}), ${package} (<< ${next})")
 else()
   set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${LAMMPS_BUILD_DIR})
 endif()
