@@ -26,6 +26,21 @@ bool is_finite_number(const std::string &word)
   return utils::is_double(word) && std::isfinite(std::strtod(word.c_str(), nullptr));
 }
 
+/// What LAMMPS of 2025 has as LabelMap::find() is find_type() in that of 2026.
+template <class Map>
+auto type_with_label(const Map &map, const std::string &label, int)
+    -> decltype(map.find_type(label, Atom::ATOM))
+{
+  return map.find_type(label, Atom::ATOM);
+}
+
+template <class Map>
+auto type_with_label(const Map &map, const std::string &label, long)
+    -> decltype(map.find(label, Atom::ATOM))
+{
+  return map.find(label, Atom::ATOM);
+}
+
 std::string range_of_integers(int least, int most)
 {
   if (most == MAXSMALLINT) return least == 1 ? "> 0" : fmt::format("at least {}", least);
@@ -140,7 +155,7 @@ int Arguments::atom_type(const std::string &name)
   if (at_end() || !atom->labelmapflag || utils::is_integer(as_ascii(arg_[next_])))
     return whole(1, atom->ntypes, name);
   const std::string label = text();
-  const int type = atom->lmap->find(label, Atom::ATOM);
+  const int type = type_with_label(*atom->lmap, label, 0);
   if (type < 1)
     refuse(named(name), '\'' + label + '\'',
            fmt::format("a type label or an integer {}", range_of_integers(1, atom->ntypes)));
