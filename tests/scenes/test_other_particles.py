@@ -46,8 +46,8 @@ class Beads(unittest.TestCase):
         self.assertNotIn("WARNING", result.printed)
 
     def test_those_in_cells_are_deleted(self):
-        everywhere = script().replace("off overlap 1.5 maxtry 1000", "off").replace("run ", "run 0 #")
-        many = everywhere.replace("random 60", "random 300")
+        many = script().replace("off overlap 1.5 maxtry 1000", "off")
+        many = many.replace("random 60", "random 300").replace("run ", "run 0 #")
         count, within = inside(run(many).folder, 0)
         # as many as the cells have of the volume, within four standard deviations
         part = 8 * 89.3 / (16 * 16 * 13)

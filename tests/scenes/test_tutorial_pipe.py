@@ -1,4 +1,4 @@
-"""The tutorial about cells of a file in a tube: flow rate, profile, hematocrits, and its restart."""
+"""The tutorial about cells of a file in a tube: flow rate, profile, hematocrits, restart."""
 
 import math
 import re
