@@ -6,11 +6,11 @@ import unittest
 from lammps_case import POTENTIALS, ROOT, run
 
 PLAIN = ROOT / "examples" / "suspension-shear" / "in.plain"
+README = (ROOT / "README.md").read_text(encoding="utf-8").split("\n## A scene\n")[1]
 
 
 def readme_scene():
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
-    return text.split("\n## A scene\n")[1].split("```")[1]
+    return README.split("```")[1]
 
 
 class Scenes(unittest.TestCase):
@@ -21,6 +21,13 @@ class Scenes(unittest.TestCase):
         strain, viscosity = table["Time"] * 1e-4, table["v_relative"]
         print(f"\nviscosity over that of plasma {viscosity[strain > 5].mean():.3f}")
         self.assertGreater(strain[-1], 9)
+        # as the text below the scene says
+        cells, = re.findall(r"it makes (\d+) cells", README)
+        self.assertIn(f"Created {cells} cells", result.printed)
+        first, = re.findall(r"begins with ([\d.]+):", README)
+        self.assertAlmostEqual(viscosity[0], float(first), places=2)
+        mean, = re.findall(r"after 50000 µs, ([\d.]+):", README)
+        self.assertAlmostEqual(viscosity[strain > 5].mean(), float(mean), delta=0.1)
         # cells dissipate more than they would far apart, Einstein's 1 + 2.5 phi, and less than
         # those of whole blood of 43 % at 124 /s, which adhere and have a more viscous inside: 5
         # (Wells and Merrill 1962)
