@@ -38,7 +38,8 @@ install(DIRECTORY scripts DESTINATION ${data_folder} FILES_MATCHING
 # below /usr Python finds the package rbc there
 rbc_install_link(lib/python3/dist-packages rbc ../../../${data_folder}/scripts/rbc)
 file(GLOB scenes RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
-  examples/*/in.* examples/fahraeus/cells.txt examples/fahraeus/velocity.py examples/python/*.py)
+  examples/*/in.* examples/blood/seeds.py examples/fahraeus/cells.txt examples/fahraeus/velocity.py
+  examples/python/*.py)
 foreach(scene ${scenes})
   get_filename_component(folder ${scene} DIRECTORY)
   install(FILES ${scene} DESTINATION ${data_folder}/${folder})
