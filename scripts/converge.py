@@ -27,6 +27,7 @@ import example_study
 import richardson
 import run_measures
 from rbc import thermo_log
+from rbc.errors import InputError
 from scene_script import Script
 
 RECORD = "run.json"
@@ -333,7 +334,7 @@ def main():
         try:
             analyses.append(converge_report.Analysis(
                 measure, arguments.take, changes, done, *fitted(done, changes, 2 + n, arguments)))
-        except run_measures.TooShort as problem:
+        except InputError as problem:
             raise SystemExit(f"{measure}: {problem}") from None
     converge_report.report(analyses, arguments)
     sys.exit(len(done) < len(runs))

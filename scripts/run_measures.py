@@ -1,15 +1,16 @@
 """What is compared of a measure: its end, its mean with noise, or all of it over time."""
 import numpy as np
 from richardson import FLAT, size
+from rbc.errors import InputError
+from rbc.means import mean_with_error
 
-BLOCKS = 5, 10, 20      # numbers of blocks for errors of means; the largest error counts
 SAMPLES = 400           # of the time, at which series are compared
 SHORTEST = 10           # lines of the run with the fewest, for a series
 ON_A_LINE = 1e-6        # share of the time between two lines
 OFTENER = "have the script print more often, with a smaller number behind `thermo`"
 
 
-class TooShort(ValueError):
+class TooShort(InputError):
     """What is wrong with the table of a run."""
 
 
@@ -20,25 +21,6 @@ def history(table, column):
         raise TooShort("the measure is not a number at all times")
     times, last = np.unique(rows[::-1, 1], return_index=True)
     return times, rows[::-1, column][last]
-
-
-def mean(times, values, part):
-    """Mean over the last part of the time, and its standard error by blocks of time."""
-    start = times[-1] - part * (times[-1] - times[0])
-    late = times[times > start]
-    if len(late) < 2 * BLOCKS[0]:
-        raise TooShort(f"the last {100 * part:g} % of the time has {len(late)} lines of thermo "
-                       f"output, a mean with its noise needs {2 * BLOCKS[0]} or more")
-    grid = np.concatenate([[start], late])
-    area = np.concatenate([[0], np.cumsum(np.diff(grid) * 0.5 * (
-        np.interp(grid[1:], times, values) + np.interp(grid[:-1], times, values)))])
-    errors = []
-    for count in BLOCKS:
-        if len(late) >= 2 * count:
-            edges = np.linspace(start, times[-1], count + 1)
-            means = np.diff(np.interp(edges, grid, area)) / np.diff(edges)
-            errors.append(np.std(means, ddof=1) / np.sqrt(count))
-    return area[-1] / (times[-1] - start), max(errors)
 
 
 def common_times(histories):
@@ -80,7 +62,7 @@ def compared(histories, take, part):
     """Values (n, m) of the runs, and their errors (n,): standard errors of means, or root mean
     squares of what interpolation between lines may be off."""
     if take == "mean":
-        means, errors = np.transpose([mean(*run, part) for run in histories])
+        means, errors = np.transpose([mean_with_error(*run, part) for run in histories])
         return means[:, None], errors
     if take == "last":
         at = np.array([min(times[-1] for times, _ in histories)])

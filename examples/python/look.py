@@ -4,8 +4,8 @@ import numpy as np
 import rbc
 
 # Cells over time
-cells = rbc.read_cell_table("cell.dat")
-milliseconds = 0.2 * cells.steps
+cells = rbc.read_cell_table("cell.dat", timestep=0.2)
+milliseconds = cells.time
 deformation = cells["deformation"].mean(axis=1)
 print(f"{len(cells.molecules)} cells, {milliseconds[-1]:g} ms")
 print(f"mean D: {deformation[0]:.3f} at first, {deformation[-1]:.3f} at the end")

@@ -13,6 +13,8 @@ HOMES = {
     "surfaces": ("Surfaces", "read_cells", "read_surfaces", "write_cells"),
     "snapshots": ("series",),
     "grids": ("Grid", "read_grid", "read_grids"),
+    "means": ("mean_with_error",),
+    "elongation": ("elongation_index",),
     "shapes": ("Shape", "angle_to_flow", "shape_of", "shapes_of"),
     "surface_distances": ("pair_distances",),
     "rendering": ("Look", "render"),

@@ -4,7 +4,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rbc.errors import InputError
-from rbc.tables import read_ave_time, read_table
+from rbc.tables import read_blocks, read_table
 
 COLORS = ("#1f4e79", "#b3202a", "#2e7d4f", "#8a5a00", "#6a3d9a", "#00798c")
 
@@ -21,7 +21,7 @@ class Classes(NamedTuple):
 
 def mean_classes(path, start=0):
     """From step `start` on, of a file with the array of compute rbc/aggregate."""
-    history = read_ave_time(path)
+    history = read_blocks(path)
     late = history.steps >= start
     if not late.any():
         raise InputError(f"{path} ends at step {history.steps[-1]}, before step {start}")

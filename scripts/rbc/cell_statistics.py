@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rbc.errors import InputError
-from rbc.tables import read_ave_time
+from rbc.tables import read_blocks
 
 
 class Box(NamedTuple):
@@ -103,7 +103,7 @@ def sampled(identities, number, seed):
 
 def members_of(path, history):
     """Aggregate ID of each cell at the steps of `history`."""
-    found = read_ave_time(path)
+    found = read_blocks(path)
     if found.data.shape[1] != history.data.shape[1]:
         raise InputError(f"{path} has {found.data.shape[1]} rows, not one for each of "
                          f"{history.data.shape[1]} cells")

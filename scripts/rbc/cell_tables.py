@@ -6,7 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from rbc.errors import InputError
-from rbc.tables import read_ave_time
+from rbc.tables import overview, read_blocks
+from rbc.text_files import Columns
 
 # of compute rbc/cell, from its first column on
 CELL_COLUMNS = ("molecule", "x", "y", "z", "area", "volume", "deformation",
@@ -18,9 +19,20 @@ class Cells(NamedTuple):
     """Columns by name, each (steps, cells)."""
     steps: np.ndarray
     columns: dict
+    timestep: float = None    # of the run, if it was given
+
+    def __repr__(self):
+        return overview(self.steps, len(next(iter(self.columns.values()))[0]), "cell", self.columns)
 
     def __getitem__(self, name):
         return self.columns[name]
+
+    @property
+    def time(self):
+        """Of the steps."""
+        if self.timestep is None:
+            raise InputError("no timestep was given: read_cell_table(path, timestep=...)")
+        return self.timestep * self.steps
 
     @property
     def molecules(self):
@@ -44,11 +56,12 @@ def named(names, path):
     return [CELL_COLUMNS[number - 1] for number in numbers]
 
 
-def read_cell_table(path):
-    """Cells of a file of `fix ave/time ... c_cell[*] mode vector`, some of the columns or all."""
-    history = read_ave_time(path)
+def read_cell_table(path, timestep=None):
+    """Cells of a file of `fix ave/time ... c_cell[*] mode vector`, some of the columns or all. With
+    the timestep of the run they have a `time`."""
+    history = read_blocks(path)
     names = named(history.names, path)
-    return Cells(history.steps, dict(zip(names, np.moveaxis(history.data, 2, 0))))
+    return Cells(history.steps, Columns(zip(names, np.moveaxis(history.data, 2, 0))), timestep)
 
 
 def cells_of_array(step, array):
@@ -56,7 +69,7 @@ def cells_of_array(step, array):
     if array.shape[1] != len(CELL_COLUMNS):
         raise InputError(f"compute rbc/cell has {len(CELL_COLUMNS)} columns, this array "
                          f"{array.shape[1]}")
-    return Cells(np.array([step]), dict(zip(CELL_COLUMNS, np.array(array).T[:, None])))
+    return Cells(np.array([step]), Columns(zip(CELL_COLUMNS, np.array(array).T[:, None])))
 
 
 def write_rows(stream, columns):

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rbc.errors import InputError
+from rbc.text_files import Columns, as_numbers, refuse_all_but_vtk, refuse_others
 
 
 class Grid(NamedTuple):
@@ -49,7 +50,7 @@ def read_rectilinear(path):
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOXML import vtkXMLRectilinearGridReader
 
-    open(path, "rb").close()    # raises what is wrong, which VTK would only print
+    refuse_all_but_vtk(path, "vtr")
     reader = vtkXMLRectilinearGridReader()
     reader.SetFileName(path)
     reader.Update()
@@ -59,8 +60,8 @@ def read_rectilinear(path):
     edges = tuple(vtk_to_numpy(side).astype(float) for side in
                   (grid.GetXCoordinates(), grid.GetYCoordinates(), grid.GetZCoordinates()))
     counts, cells = [len(side) - 1 for side in edges], grid.GetCellData()
-    data = {cells.GetArrayName(n): shaped(vtk_to_numpy(cells.GetArray(n)), counts)
-            for n in range(cells.GetNumberOfArrays())}
+    data = Columns((cells.GetArrayName(n), shaped(vtk_to_numpy(cells.GetArray(n)), counts))
+                   for n in range(cells.GetNumberOfArrays()))
     step = re.search(r"\.(\d+)\.vtr$", path)
     return Grid(edges, data, int(step[1]) if step else None)
 
@@ -72,8 +73,10 @@ def shaped(values, counts):
 
 
 def read_dump_grid(path):
-    with open(path, encoding="utf-8") as stream:
-        blocks = stream.read().split("ITEM: TIMESTEP\n")[1:]
+    with open(path, encoding="utf-8", errors="replace") as stream:
+        text = stream.read()
+    refuse_others(path, text, "grid")
+    blocks = text.split("ITEM: TIMESTEP\n")[1:]
     if not blocks:
         raise InputError(f"{path} is neither a .vtr file nor a text dump of a grid")
     return [dumped(path, block) for block in blocks]
@@ -88,11 +91,11 @@ def dumped(path, block):
         raise InputError(f"{path}: step {step} is not one of dump grid")
     counts = [int(word) for word in size[1].split()]
     names = cells[1].split()
-    values = np.array(block[cells.end():].split(), dtype=float)
+    values = as_numbers(path, block[cells.end():].split())
     if values.size != np.prod(counts) * len(names):
         raise InputError(f"{path}: step {step} is cut off")
     columns = values.reshape(-1, len(names)).T
     bounds = [[float(word) for word in side.split()[:2]] for side in sides.groups()]
     edges = tuple(np.linspace(*side, count + 1) for side, count in zip(bounds, counts))
-    return Grid(edges, {name: shaped(column, counts) for name, column in zip(names, columns)},
-                int(step))
+    data = Columns((name, shaped(column, counts)) for name, column in zip(names, columns))
+    return Grid(edges, data, int(step))

@@ -14,22 +14,45 @@ Means are over whole half turns of a shape that tumbles.
 """
 import numpy as np
 
+from rbc.errors import InputError
+from rbc.text_files import as_numbers, read_head, refuse_others
+
+COLUMNS = "id", "xu", "yu", "zu"
+
 
 def read_dump(path):
     """Steps and unwrapped positions [frame, vertex, 3] of a text dump, sorted by atom ID."""
+    refuse_others(path, read_head(path), "dump")
     steps, frames = [], []
-    with open(path, encoding="utf-8") as stream:
-        for line in stream:
-            if line.startswith("ITEM: TIMESTEP"):
-                steps.append(int(next(stream)))
-            elif line.startswith("ITEM: NUMBER OF ATOMS"):
-                count = int(next(stream))
-            elif line.startswith("ITEM: ATOMS"):
-                columns = line.split()[2:]
-                table = np.array([next(stream).split() for _ in range(count)], dtype=float)
-                table = table[np.argsort(table[:, columns.index("id")])]
-                frames.append(table[:, [columns.index(c) for c in ("xu", "yu", "zu")]])
+    with open(path, encoding="utf-8", errors="replace") as stream:
+        try:
+            for line in stream:
+                if line.startswith("ITEM: TIMESTEP"):
+                    steps.append(int(next(stream)))
+                elif line.startswith("ITEM: NUMBER OF ATOMS"):
+                    count = int(next(stream))
+                elif line.startswith("ITEM: ATOMS"):
+                    frames.append(frame(path, line.split()[2:],
+                                        [next(stream).split() for _ in range(count)]))
+        except StopIteration:
+            raise InputError(f"{path}: step {steps[-1] if steps else ''} is cut off") from None
+    if not frames:
+        raise InputError(f"{path} holds no step of a text dump of atoms")
+    if len({len(one) for one in frames}) > 1:
+        raise InputError(f"{path}: the number of atoms changes")
     return np.array(steps), np.array(frames)
+
+
+def frame(path, columns, rows):
+    """Positions [vertex, 3], sorted by atom ID."""
+    missing = [name for name in COLUMNS if name not in columns]
+    if missing:
+        raise InputError(f"{path} has no column {missing[0]}; it has {' '.join(columns)}")
+    table = as_numbers(path, rows)
+    if table.shape != (len(rows), len(columns)):
+        raise InputError(f"{path} has a step that is cut off")
+    table = table[:, [columns.index(name) for name in COLUMNS]]
+    return table[np.argsort(table[:, 0]), 1:]
 
 
 def angles(positions):

@@ -7,7 +7,7 @@ import numpy as np
 from rbc.aggregates import COLORS
 from rbc.errors import InputError
 from rbc.shapes import angle_to_flow
-from rbc.tables import read_ave_time, read_csv, read_table
+from rbc.tables import read_blocks, read_csv, read_table
 
 MARKERS = "osD^vP"
 GREYS = ("#222222", "#b06000", "#777777")
@@ -70,7 +70,7 @@ def reference_series(path, conditions, column):
 def cell_lines(path, factor=1.0, molecules=None, label="this run"):
     """Lists of (label, x, y) for D and for the angles of cells, from a file of compute rbc/cell. x
     is the step times the factor."""
-    history = read_ave_time(path)
+    history = read_blocks(path)
     x = history.steps * factor
     identity = history.column(1)[0].astype(int)
     chosen = [i for i, m in enumerate(identity) if not molecules or m in molecules]

@@ -12,6 +12,7 @@ from vtkmodules.vtkIOXML import (
     vtkXMLPolyDataReader, vtkXMLPolyDataWriter, vtkXMLPPolyDataReader)
 
 from rbc.errors import InputError
+from rbc.text_files import Columns, refuse_all_but_vtk
 
 
 class Surfaces(NamedTuple):
@@ -49,7 +50,7 @@ class CellIds(NamedTuple):
 def read_polydata(path):
     """VTK's data set of a file."""
     path = os.fspath(path)
-    open(path, "rb").close()    # raises what is wrong, which VTK would only print
+    refuse_all_but_vtk(path, "surfaces")
     reader = vtkXMLPPolyDataReader() if path.endswith(".pvtp") else vtkXMLPolyDataReader()
     reader.SetFileName(path)
     reader.Update()
@@ -69,7 +70,7 @@ def read_surfaces(path):
     time = dataset.GetFieldData().GetArray("TimeValue")
     return Surfaces(vtk_to_numpy(dataset.GetPoints().GetData()).astype(float),
                     connectivity.reshape(-1, 3),
-                    {name: vtk_to_numpy(data.GetArray(name)) for name in names},
+                    Columns((name, vtk_to_numpy(data.GetArray(name))) for name in names),
                     time.GetValue(0) if time else np.nan)
 
 

@@ -2,6 +2,7 @@
 import numpy as np
 
 from rbc.errors import InputError
+from rbc.text_files import Columns, refuse_others
 
 
 def numbers(line, count):
@@ -32,7 +33,9 @@ def tables(text):
 def read_log(path):
     """{column: values} of each run in a log."""
     with open(path, encoding="utf-8", errors="replace") as stream:
-        found = tables(stream.read())
+        text = stream.read()
+    refuse_others(path, text, "log")
+    found = tables(text)
     if not found:
         raise InputError(f"{path} holds no thermo output that begins with Step")
-    return [dict(zip(names, rows.T)) for names, rows in found]
+    return [Columns(zip(names, rows.T)) for names, rows in found]

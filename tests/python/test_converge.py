@@ -14,7 +14,7 @@ import numpy as np
 
 import converge
 import run_measures
-from rbc import thermo_log
+from rbc import mean_with_error, thermo_log
 from scene_script import Script
 
 MESHES = "shape=cell_100,cell_200,cell_400"
@@ -301,7 +301,7 @@ class Measures(unittest.TestCase):
             x = [random.standard_normal()]
             for _ in times[1:]:
                 x.append(x[-1] * np.exp(-step / tau) + kick * random.standard_normal())
-            found, error = run_measures.mean(times, 5 + np.array(x), 0.5)
+            found, error = mean_with_error(times, 5 + np.array(x), 0.5)
             means.append(found)
             errors.append(error)
         exact = np.sqrt(2 * tau / (0.5 * total))
@@ -311,7 +311,7 @@ class Measures(unittest.TestCase):
     def test_mean_of_a_line(self):
         """Exact, whatever the times of the lines are."""
         times = np.concatenate([np.linspace(0, 4, 9), np.linspace(4.1, 10, 80)])
-        self.assertAlmostEqual(run_measures.mean(times, 2 * times, 0.5)[0], 15)
+        self.assertAlmostEqual(mean_with_error(times, 2 * times, 0.5)[0], 15)
 
     def test_ends_at_different_times(self):
         """Values are taken at the earliest end."""

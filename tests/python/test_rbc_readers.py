@@ -57,6 +57,48 @@ class Shapes(unittest.TestCase):
             self.assertAlmostEqual(np.log2(coarse / fine), 2, delta=0.1)
 
 
+class Elongation(unittest.TestCase):
+    @staticmethod
+    def cells(semi_axes, turns):
+        """Of ellipsoids that are turned, a step each, as compute rbc/cell has them."""
+        columns = {name: [] for name in rbc.CELL_COLUMNS}
+        for turn in turns:
+            for d, long, short in zip("xyz", turn[0], turn[2]):
+                columns[f"long_{d}"].append([long])
+                columns[f"short_{d}"].append([short])
+            for name, value in zip(("long", "middle", "short"), semi_axes):
+                columns[name].append([value])
+        return rbc.Cells(np.arange(len(turns)),
+                         {name: np.array(values) for name, values in columns.items() if values})
+
+    def test_of_an_ellipsoid_in_the_plane_of_shear(self):
+        # it reaches sqrt(a^2 cos^2 + c^2 sin^2) along the flow, and b along the vorticity
+        a, b, c = 4.0, 3.0, 1.0
+        angles = np.array([0.0, 30, 60, 90, -45])
+        found = rbc.elongation_index(self.cells((a, b, c), [turned(angle) for angle in angles]))
+        length = np.hypot(a * np.cos(np.radians(angles)), c * np.sin(np.radians(angles)))
+        np.testing.assert_allclose(found[:, 0], (length - b) / (length + b), rtol=1e-13)
+        self.assertAlmostEqual(found[0, 0], 1 / 7)
+        self.assertAlmostEqual(found[3, 0], -1 / 2)
+
+    def test_of_any_ellipsoid_is_that_of_its_shadow(self):
+        """The shadow of many points of it, seen along z, and with the flow along z along y."""
+        semi_axes, random = np.array([4.0, 2.5, 1.0]), np.random.default_rng(2)
+        points = random.standard_normal((400_000, 3))
+        points *= semi_axes / np.linalg.norm(points, axis=1)[:, None]
+        turn = turned(40) @ np.array([(0.8, 0.6, 0), (-0.6, 0.8, 0), (0, 0, 1)]) @ turned(25)
+        lengths = np.ptp(points @ turn, axis=0)
+        cells = self.cells(semi_axes, [turn])
+        for flow, vorticity in ("xy", "zx"):
+            length, width = (lengths["xyz".index(d)] for d in (flow, vorticity))
+            self.assertAlmostEqual(rbc.elongation_index(cells, flow, vorticity)[0, 0],
+                                   (length - width) / (length + width), delta=1e-3)
+
+    def test_of_one_direction(self):
+        with self.assertRaisesRegex(rbc.InputError, "must be two of x, y and z, not x and x"):
+            rbc.elongation_index(self.cells((3, 2, 1), [turned(0)]), "x", "x")
+
+
 class Surfaces(Folder):
     def test_cells_of_a_file(self):
         meshes = {7: cuboid((1, 2, 3), (9, 9, 9)), 2: sphere(1, (4, 0, 0), 8), 5: cuboid((2, 2, 2))}

@@ -17,7 +17,8 @@ import numpy as np
 from rbc.cell_tables import CELL_COLUMNS, read_cell_table, rows_of_history, write_rows
 from rbc.errors import InputError
 from rbc.snapshots import series
-from rbc.tables import read_ave_time, read_table
+from rbc.tables import read_blocks, read_table
+from rbc.text_files import kind_of, read_head
 from rbc.thermo_log import read_log
 
 SURFACES = ".vtp", ".pvtp"
@@ -54,7 +55,7 @@ def of_surfaces(files, timestep):
 def of_blocks(path, timestep):
     """Of fix ave/time in vector mode: all columns of compute rbc/cell with their names, others as
     they are."""
-    history = read_ave_time(path)
+    history = read_blocks(path)
     if len(history.names) == len(CELL_COLUMNS):
         cells = read_cell_table(path)
         return with_time(rows_of_history(cells.steps, cells.columns), timestep)
@@ -81,12 +82,9 @@ def with_time(columns, timestep, step="step"):
 
 def kind(path):
     """Which of the tables a text file is."""
-    with open(path, encoding="utf-8", errors="replace") as stream:
-        text = stream.read(100_000)
-    if text.startswith("LAMMPS (") or "\nLAMMPS (" in text:
-        return of_log
-    if "\n# Row " in text:
-        return of_blocks
+    found = kind_of(read_head(path))
+    if found in ("log", "blocks"):
+        return of_log if found == "log" else of_blocks
     return lambda path, timestep: with_time(read_table(path), timestep, "TimeStep")
 
 

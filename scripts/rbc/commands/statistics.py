@@ -21,7 +21,7 @@ import numpy as np
 from rbc.cell_statistics import (
     Box, members_of, pair_statistics, plot_statistics, rouleau_order, sampled)
 from rbc.errors import InputError
-from rbc.tables import read_ave_time
+from rbc.tables import read_blocks
 
 
 def parse(arguments):
@@ -68,7 +68,7 @@ def main(arguments=None):
     args = parse(arguments)
     low, high = np.reshape(args.box, (3, 2)).T
     box = Box(low, high, np.array([side == "p" for side in args.boundary]))
-    history = read_ave_time(args.cells)
+    history = read_blocks(args.cells)
     late = history.steps >= args.start
     if not late.any():
         raise InputError(f"{args.cells} ends at step {history.steps[-1]}, before --from "
