@@ -13,3 +13,4 @@ rm -rf "$pages"
 PYTHONDONTWRITEBYTECODE=1 "$PYTHON" -m sphinx -W --keep-going -q -c "$ROOT/doc" "$ROOT" "$pages" ||
   fail "pages are not as they should be (see above)"
 rm -r "$pages/.doctrees"
+say "open $pages/index.html"

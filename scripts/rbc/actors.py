@@ -74,6 +74,18 @@ def ramp(low, high, colors=WARM, size=256):
     return table
 
 
+def round_limits(low, high):
+    """Around a range: four steps of 1, 2, 2.5 or 5 times a power of ten."""
+    if high <= low:
+        return low, low + 1
+    power = 10.0**np.floor(np.log10((high - low) / 4))
+    for step in power * np.array([1, 2, 2.5, 5, 10, 20]):
+        start = step * np.floor(low / step + 1e-9)
+        if start + 4 * step >= high - 1e-9 * step:
+            break
+    return start, start + 4 * step
+
+
 def limits_of(path, name):
     """Least and largest value of a point array of a file (of a vector, its length)."""
     values = point_values(read_surface(path), name)
@@ -96,8 +108,7 @@ def color_by(surface, mapper, name, limits):
     if name in IDENTITIES:
         table, values = palette(24), np.round(values) % 24
     else:
-        low, high = limits or (values.min(), values.max())
-        table = ramp(low, high if high > low else low + 1)
+        table = ramp(*(limits or round_limits(values.min(), values.max())))
     scalars = numpy_to_vtk(np.ascontiguousarray(values, dtype=float), deep=True)
     scalars.SetName("shown")
     surface.GetPointData().SetScalars(scalars)
@@ -222,7 +233,7 @@ def slice_actor(path, axis, place=None, limits=None):
     corners.SetData(numpy_to_vtk(points.transpose(2, 1, 0, 3).reshape(-1, 3), deep=True))
     plane.SetPoints(corners)
     plane.GetPointData().SetScalars(numpy_to_vtk(np.ascontiguousarray(values.T).ravel(), deep=True))
-    table = ramp(*(limits or (0, speed.max() or 1)), COOL)
+    table = ramp(*(limits or round_limits(0, speed.max())), COOL)
     mapper = vtkDataSetMapper()
     mapper.SetInputData(plane)
     mapper.SetLookupTable(table)

@@ -6,7 +6,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from rbc.actors import IDENTITIES, largest_speed, limits_of
+from rbc.actors import IDENTITIES, largest_speed, limits_of, round_limits
 from rbc.display import display
 from rbc.errors import InputError
 from rbc.rendering import Look, render
@@ -46,10 +46,11 @@ def common_look(files, flows, look):
         look = look._replace(box=tuple(side for sides in zip(low, high) for side in sides))
     if look.color and look.color not in IDENTITIES and look.range is None:
         limits = [limits_of(name, look.color) for name in files]
-        look = look._replace(range=(min(low for low, _ in limits), max(high for _, high in limits)))
+        lows, highs = zip(*limits)
+        look = look._replace(range=round_limits(min(lows), max(highs)))
     if flows and look.flow_range is None:
         fastest = max(largest_speed(name) for name in flows)
-        look = look._replace(flow_range=(0, fastest or 1))
+        look = look._replace(flow_range=round_limits(0, fastest))
     return look
 
 

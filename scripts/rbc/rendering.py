@@ -21,6 +21,11 @@ from rbc.display import display
 BAR_WIDTH = 0.14
 
 
+MICRON = "\u00b5m"
+UNITS = {"velocity": f"{MICRON}/\u00b5s = m/s", "speed": f"{MICRON}/\u00b5s = m/s", "force": "nN",
+         "tension": "mN/m"}    # of units micro
+
+
 class Look(NamedTuple):
     """What a picture shows and how; lengths in the unit of the files."""
     color: str = None            # point data to color by: molecule, aggregate, velocity, ...
@@ -40,7 +45,7 @@ class Look(NamedTuple):
     zoom: float = 1.0
     parallel: bool = False       # no perspective
     scale_bar: float = None      # length of a bar; no perspective
-    unit: str = "\u00b5m"
+    unit: str = MICRON           # of lengths; another one: no units at the color bar
     smooth: int = 1              # subdivisions of the triangles
     occlusion: bool = True       # shading of narrow gaps, where there is no flow
 
@@ -122,8 +127,13 @@ def add_color_bar(renderer, table, title):
     bar.SetWidth(0.7)
     bar.SetHeight(0.5)
     renderer.AddViewProp(bar)
-    size = min(height / 42, 1.7 * width / max(len(title), 1))
+    size = min(height / 42, 1.7 * width / max(map(len, [*title.splitlines(), " "])))
     add_text(renderer, title, width / 2, 0.77 * height, round(size))
+
+
+def title_of(name, unit):
+    """Of a color bar, with the unit below if it is known."""
+    return f"{name}\n({UNITS[name]})" if unit == MICRON and name in UNITS else name
 
 
 def light(renderer):
@@ -218,7 +228,7 @@ def render(path, output, look=Look()):
         if look.scale_bar:
             add_scale_bar(renderer, look.scale_bar, look.unit)
         if with_bar:
-            title = look.label or (look.color if table else "speed")
+            title = look.label or title_of(look.color if table else "speed", look.unit)
             add_color_bar(add_renderer(window, 1 - BAR_WIDTH, 1), table or flow_table, title)
         window.Render()
         save(window, os.fspath(output))

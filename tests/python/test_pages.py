@@ -42,6 +42,7 @@ class Pages(unittest.TestCase):
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=500,
                               env={**os.environ, "USER_RBC_BUILD": str(self.folder)})
         self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertEqual(done.stdout.splitlines()[-1], f"== open {self.folder}/html/index.html")
         html = self.folder / "html"
         for name in ("index", "search", "README", "doc/index", "doc/fix_rbc_ib",
                      "examples/stretch/README"):

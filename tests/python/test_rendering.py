@@ -6,7 +6,8 @@ from pathlib import Path
 import numpy as np
 from matplotlib.image import imread
 from rbc import InputError, Look, render
-from rbc.actors import COOL
+from rbc.actors import COOL, round_limits
+from rbc.rendering import title_of
 from vtk_files import cuboid, sphere, write_grid, write_surfaces
 
 SIDE = 10.0
@@ -91,6 +92,17 @@ class Pictures(unittest.TestCase):
         for place, middle in ((columns, 6), (399 - rows, 7)):
             ends = (np.array([place.min(), place.max()]) - 199.5) / PIXELS + 5
             np.testing.assert_allclose(ends, (middle - 2, middle + 2), atol=0.1)
+
+    def test_limits_are_round(self):
+        for low, high, expected in ((0, 0.000704, (0, 0.0008)), (0, 1, (0, 1)), (0, 0.4, (0, 0.4)),
+                                    (-3.3, 5.1, (-5, 15)), (0.12, 0.13, (0.12, 0.13)),
+                                    (0, 0, (0, 1)), (99, 101, (99, 101))):
+            np.testing.assert_allclose(round_limits(low, high), expected, rtol=1e-12, atol=1e-15)
+
+    def test_titles_of_color_bars_have_units_of_micro(self):
+        self.assertEqual(title_of("velocity", Look().unit), "velocity\n(\u00b5m/\u00b5s = m/s)")
+        self.assertEqual(title_of("velocity", "radii"), "velocity")
+        self.assertEqual(title_of("growth", Look().unit), "growth")
 
     def test_data_that_is_not_there(self):
         with self.assertRaisesRegex(InputError, "no point data 'speed' in the file; there are: m"):

@@ -1,6 +1,6 @@
 """Options of the commands that draw cells."""
 from rbc.actors import SUBDIVIDE_BELOW
-from rbc.rendering import Look
+from rbc.rendering import MICRON, Look
 
 
 def size(text):
@@ -39,7 +39,9 @@ def add_look(parser):
     parser.add_argument("--parallel", action="store_true", help="no perspective")
     parser.add_argument("--scale-bar", type=float, metavar="LENGTH",
                         help="draw a bar of this length; no perspective")
-    parser.add_argument("--unit", default="\u00b5m", help="unit at the scale bar (default um)")
+    parser.add_argument("--unit", default=MICRON,
+                        help="unit of lengths, at the scale bar (default um, as in units micro; "
+                        "with another there are no units at the color bar)")
     parser.add_argument("--smooth", type=int, default=1, metavar="N",
                         help=f"subdivisions for display, up to {SUBDIVIDE_BELOW} triangles")
     parser.add_argument("--no-occlusion", dest="occlusion", action="store_false",

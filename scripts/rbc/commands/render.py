@@ -7,7 +7,8 @@
 Lengths are in the unit of the file. The view is from azimuth A (degrees from -y towards +x) and
 elevation E above the x-y plane: `--view 0 0` sees x to the right and z up.
 
-`--movie` takes any number of files and writes a movie: `python3 -m rbc movie --help`.
+`python3 -m rbc movie` draws any number of files and writes a movie; so does --movie here, with its
+options.
 
 Needs the Debian packages python3-vtk9, python3-numpy and xvfb: VTK draws through an X server, and
 the script starts a private Xvfb for as long as it runs. Without Xvfb it uses $DISPLAY.
@@ -26,6 +27,8 @@ def parse(arguments):
     parser.add_argument("-o", "--output", required=True, help="PNG to write")
     parser.add_argument("--flow", metavar="FILE",
                         help="draw a slice of the velocity in this file of dump grid/vtk or grid")
+    parser.add_argument("--movie", action="store_true",
+                        help="write a movie of all files named: see `python3 -m rbc movie --help`")
     add_look(parser)
     return parse_look(parser, arguments)
 
