@@ -12,7 +12,7 @@ COMMANDS = {
     "plot": "deformation and angles of cells in shear over time",
     "motion": "tumbling and tank-treading of a cell, from a dump of its vertices",
     "statistics": "distances, order and paths of many cells",
-    "aggregates": "sizes of aggregates over the shear rate",
+    "aggregates": "sizes of aggregates over time or the shear rate",
     "gaps": "gaps between the surfaces of neighboring cells",
 }
 

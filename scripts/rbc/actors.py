@@ -75,11 +75,11 @@ def ramp(low, high, colors=WARM, size=256):
 
 
 def round_limits(low, high):
-    """Around a range: four steps of 1, 2, 2.5 or 5 times a power of ten."""
+    """Around a range: four round steps, for the five labels of a color bar."""
     if high <= low:
         return low, low + 1
     power = 10.0**np.floor(np.log10((high - low) / 4))
-    for step in power * np.array([1, 2, 2.5, 5, 10, 20]):
+    for step in power * np.array([1, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10, 20]):
         start = step * np.floor(low / step + 1e-9)
         if start + 4 * step >= high - 1e-9 * step:
             break

@@ -7,6 +7,7 @@ from rbc.errors import InputError
 from rbc.tables import read_blocks, read_table
 
 COLORS = ("#1f4e79", "#b3202a", "#2e7d4f", "#8a5a00", "#6a3d9a", "#00798c")
+VECTOR = {"number": 1, "mean": 2, "median": 3, "largest": 4}    # of compute rbc/aggregate
 
 
 class Classes(NamedTuple):
@@ -41,6 +42,43 @@ def mean_median(path, start=0):
     if not late.any():
         raise InputError(f"{path} ends at step {steps[-1]:.0f}, before step {start}")
     return medians[0][late].mean(), medians[0][late].std()
+
+
+def sizes_over_time(path, x=None, start=0):
+    """(name of x, its values, {what: values}) from step `start` on of a file with the vector of
+    compute rbc/aggregate, as far as it has its columns. x: the step, if no other is named."""
+    table = read_table(path)
+    step, x = next(iter(table)), x or next(iter(table))
+    late, found = table[step] >= start, {}
+    if not late.any():
+        raise InputError(f"{path} ends at step {table[step][-1]:.0f}, before step {start}")
+    for what, number in VECTOR.items():
+        columns = [values for name, values in table.items() if name.endswith(f"[{number}]")]
+        if len(columns) > 1:
+            raise InputError(f"{path} has {len(columns)} columns that end in [{number}]")
+        if columns:
+            found[what] = columns[0][late]
+    if not found:
+        raise InputError(f"{path} has no column of compute rbc/aggregate, c_ID[1] to c_ID[4]; it "
+                         f"has {' '.join(table)}")
+    return x, table[x][late], found
+
+
+def plot_sizes(path, along, x, sizes):
+    """Number of aggregates and their sizes over x, which `along` names."""
+    from matplotlib.figure import Figure
+
+    panels = [["number"]] * ("number" in sizes) + [["size"]] * bool(set(sizes) - {"number"})
+    figure = Figure(figsize=(6.4, 3 * len(panels)), layout="constrained")
+    axes = figure.subplot_mosaic(panels, sharex=True)
+    for n, (what, values) in enumerate(sizes.items()):
+        panel = axes["number" if what == "number" else "size"]
+        panel.plot(x, values, color=COLORS[n], label=what)
+        panel.set(ylim=(0, None), ylabel="aggregates" if what == "number" else "size (cells)")
+    if "size" in axes:
+        axes["size"].legend(frameon=False)
+    axes[panels[-1][0]].set_xlabel(along)
+    figure.savefig(path, dpi=150)
 
 
 def plot_aggregates(path, cases, singles=True):

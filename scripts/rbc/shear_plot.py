@@ -1,5 +1,6 @@
 """Taylor deformation and orientation of cells in shear over time, with reference curves."""
 import re
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -82,6 +83,26 @@ def cell_lines(path, factor=1.0, molecules=None, label="this run"):
     return ([(f"cell {identity[i]}" if len(chosen) > 1 else label, x, deformation[:, i])
              for i in chosen],
             [(kind, x, angle[:, i]) for kind, angle in angles for i in chosen])
+
+
+def names_of(paths):
+    """Of files for a legend: without the folder where that tells them apart."""
+    stems = [Path(path).stem for path in paths]
+    return stems if len(set(stems)) == len(stems) else [str(path) for path in paths]
+
+
+def compared_lines(paths, factors, molecules=None):
+    """As cell_lines, of several files, a line for each: the mean of its cells, and the angles where
+    all files have one cell."""
+    shapes, angles, single = [], [], True
+    for name, path, factor in zip(names_of(paths), paths, factors):
+        found, turned = cell_lines(path, factor, molecules)
+        single = single and len(found) == 1
+        label = name if len(found) == 1 else f"{name}, mean of {len(found)} cells"
+        shapes.append((label, found[0][1], np.mean([y for _, _, y in found], axis=0)))
+        angles.append(turned)
+    # by kind, each with all files
+    return shapes, [line for kind in zip(*angles) for line in kind] if single else []
 
 
 def table_lines(path, x="time", y=("D",), angles=(), factor=1.0):

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
-from rbc.aggregates import mean_classes, mean_median  # noqa: E402
+from rbc.aggregates import mean_classes, mean_median, sizes_over_time  # noqa: E402
 from rbc.commands import aggregates  # noqa: E402
 from rbc.errors import InputError  # noqa: E402
 
@@ -85,6 +85,25 @@ class Aggregates(unittest.TestCase):
         self.assertIn("10 /s: median 20 +- 0 cells; % of aggregates from 1: 0.0, 2: 0.0, 4: 33.3",
                       printed.getvalue())
         self.assertGreater((self.folder / "out.png").stat().st_size, 5000)
+
+    def test_sizes_over_time(self):
+        write(self.folder, [[1] * 12, [1, 2, 2, 7], [12]])
+        for start, rows in ((0, slice(0, 3)), (100, slice(1, 3))):
+            name, steps, sizes = sizes_over_time(self.folder / "sizes.dat", start=start)
+            self.assertEqual((name, steps.tolist()), ("TimeStep", [0, 100, 200][rows]))
+            for what, expected in (("number", [12, 4, 1]), ("mean", [1, 3, 12]),
+                                   ("median", [1, 2, 12]), ("largest", [1, 7, 12])):
+                self.assertEqual(sizes[what].tolist(), expected[rows])
+        aggregates.main(["--sizes", str(self.folder / "sizes.dat"), "--timestep", "0.5", "-o",
+                         str(self.folder / "out.png")])
+        self.assertGreater((self.folder / "out.png").stat().st_size, 5000)
+        (self.folder / "some.dat").write_text("# TimeStep v_strain c_a[4]\n5 0.1 7\n10 0.2 8\n")
+        name, strain, sizes = sizes_over_time(self.folder / "some.dat", "v_strain")
+        self.assertEqual((strain.tolist(), list(sizes)), ([0.1, 0.2], ["largest"]))
+        aggregates.main(["--sizes", str(self.folder / "some.dat"), "--x", "v_strain", "-o",
+                         str(self.folder / "out.png")])
+        with self.assertRaisesRegex(InputError, "there is no v_time; there are TimeStep, v_strain"):
+            sizes_over_time(self.folder / "some.dat", "v_time")
 
     def test_frames_that_are_not_there(self):
         write(self.folder, [[1]])

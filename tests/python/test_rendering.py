@@ -95,7 +95,7 @@ class Pictures(unittest.TestCase):
 
     def test_limits_are_round(self):
         for low, high, expected in ((0, 0.000704, (0, 0.0008)), (0, 1, (0, 1)), (0, 0.4, (0, 0.4)),
-                                    (-3.3, 5.1, (-5, 15)), (0.12, 0.13, (0.12, 0.13)),
+                                    (-3.3, 5.1, (-6, 6)), (0.12, 0.13, (0.12, 0.13)),
                                     (0, 0, (0, 1)), (99, 101, (99, 101))):
             np.testing.assert_allclose(round_limits(low, high), expected, rtol=1e-12, atol=1e-15)
 
