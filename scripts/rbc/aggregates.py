@@ -64,7 +64,7 @@ def sizes_over_time(path, x=None, start=0):
     return x, table[x][late], found
 
 
-def plot_sizes(path, along, x, sizes):
+def sizes_figure(along, x, sizes):
     """Number of aggregates and their sizes over x, which `along` names."""
     from matplotlib.figure import Figure
 
@@ -74,11 +74,18 @@ def plot_sizes(path, along, x, sizes):
     for n, (what, values) in enumerate(sizes.items()):
         panel = axes["number" if what == "number" else "size"]
         panel.plot(x, values, color=COLORS[n], label=what)
-        panel.set(ylim=(0, None), ylabel="aggregates" if what == "number" else "size (cells)")
+        panel.set_ylabel("aggregates" if what == "number" else "size (cells)")
+    for panel in axes.values():
+        panel.set_ylim(bottom=0)
     if "size" in axes:
         axes["size"].legend(frameon=False)
     axes[panels[-1][0]].set_xlabel(along)
-    figure.savefig(path, dpi=150)
+    return figure
+
+
+def plot_sizes(path, along, x, sizes):
+    """A picture of what sizes_over_time returns."""
+    sizes_figure(along, x, sizes).savefig(path, dpi=150)
 
 
 def plot_aggregates(path, cases, singles=True):

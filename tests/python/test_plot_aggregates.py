@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
-from rbc.aggregates import mean_classes, mean_median, sizes_over_time  # noqa: E402
+from rbc.aggregates import (  # noqa: E402
+    mean_classes, mean_median, sizes_figure, sizes_over_time)
 from rbc.commands import aggregates  # noqa: E402
 from rbc.errors import InputError  # noqa: E402
 
@@ -97,6 +98,10 @@ class Aggregates(unittest.TestCase):
         aggregates.main(["--sizes", str(self.folder / "sizes.dat"), "--timestep", "0.5", "-o",
                          str(self.folder / "out.png")])
         self.assertGreater((self.folder / "out.png").stat().st_size, 5000)
+        figure = sizes_figure("time", steps, sizes)
+        for panel, largest in zip(figure.axes, (4, 12)):
+            self.assertEqual(panel.get_ylim()[0], 0)
+            self.assertGreater(panel.get_ylim()[1], largest)
         (self.folder / "some.dat").write_text("# TimeStep v_strain c_a[4]\n5 0.1 7\n10 0.2 8\n")
         name, strain, sizes = sizes_over_time(self.folder / "some.dat", "v_strain")
         self.assertEqual((strain.tolist(), list(sizes)), ([0.1, 0.2], ["largest"]))
