@@ -34,7 +34,8 @@ class Analysis:
         base = values[self.finest]
         self.limit = base + sum((fit.limit - base for _, fit in fits.values()), 0 * base)
         self.scale = float(richardson.size(base))
-        self.has_limit = not any(has_no_order(fit) for _, fit in fits.values())
+        self.has_limit = all(i in fits and not has_no_order(fits[i][1])
+                             for i in range(len(changes)))
 
     def part(self, i, n):
         """The error that setting n of what is varied makes: offset (m,), what the fit adds to its

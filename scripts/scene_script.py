@@ -95,8 +95,8 @@ class Script:
         first = [line.split()[:2] for line in lines]
         styles = [n for n, words in enumerate(first) if words == ["thermo_style", "custom"]]
         runs = [n for n, words in enumerate(first) if words[:1] and words[0] in RUNS]
-        every = [line.split("#")[0].split(None, 1)[1].strip() for line in lines[:runs[-1]]
-                 if line.split()[:1] == ["thermo"]][-1:]
+        every = [line.split("#")[0].strip().removeprefix("thermo").strip()
+                 for line, words in zip(lines[:runs[-1]], first) if words[:1] == ["thermo"]][-1:]
         if styles:
             lines[styles[-1]] = lines[styles[-1]].split("#")[0] + " " + columns
         for n in reversed(runs):
