@@ -22,6 +22,7 @@ import make_template  # noqa: E402
 import shapes  # noqa: E402
 import surface_mesh  # noqa: E402
 from rbc.commands import plot  # noqa: E402
+from rbc.errors import InputError  # noqa: E402
 from rbc.shapes import angle_to_flow  # noqa: E402
 from rbc.shear_plot import reference_series  # noqa: E402
 from rbc.tables import read_ave_time, read_csv, read_table  # noqa: E402
@@ -377,7 +378,7 @@ class Tables(unittest.TestCase):
         self.assertEqual(history.column(7)[:, 0].tolist(), [0, 0.25])
         self.assertTrue(np.isnan(history.column(7)[1, 1]))
         self.assertEqual(history.columns(11, 13)[0, 1].tolist(), [0, 0, -1e-3])
-        with self.assertRaises(KeyError):
+        with self.assertRaisesRegex(InputError, "column 6 is not in the file"):
             history.column(6)
 
     def test_unfinished_block_and_repeated_header(self):
