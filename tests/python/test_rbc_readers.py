@@ -57,6 +57,23 @@ class Shapes(unittest.TestCase):
             self.assertAlmostEqual(np.log2(coarse / fine), 2, delta=0.1)
 
 
+class Means(unittest.TestCase):
+    def test_of_what_is_no_series(self):
+        for times, values, part, message in (
+                ([0, 1, 1], [1, 2, 3], 0.5, "as many values as times, which rise"),
+                ([0, 1], [1, 2, 3], 0.5, "as many values as times, which rise"),
+                (range(12), range(12), 0.0, "a part of 0 is not above 0 and up to 1"),
+                (range(12), range(12), 0.5, "has 6 lines of output, a mean .* needs 10 or more")):
+            with self.assertRaisesRegex(rbc.InputError, message):
+                rbc.mean_with_error(times, values, part)
+
+    def test_of_a_wave_over_whole_periods(self):
+        times = np.linspace(0, 20 * np.pi, 4001)
+        mean, error = rbc.mean_with_error(times, 3 + np.sin(times), 0.8)
+        self.assertAlmostEqual(mean, 3, delta=1e-6)
+        self.assertTrue(0 < error < 1)
+
+
 class Elongation(unittest.TestCase):
     @staticmethod
     def cells(semi_axes, turns):
