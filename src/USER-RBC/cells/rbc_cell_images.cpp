@@ -150,6 +150,7 @@ void CellImages::correct_flags(LocalCells &cells)
       flags = right;
     }
   }
+  free_memory();
   warn_of_corrections(cells, corrected);
 }
 
@@ -185,25 +186,41 @@ void CellImages::warn_of_corrections(LocalCells &cells, std::vector<double> &cor
    a cell that lies on both sides of that is kept whole where its first vertex is.
 ------------------------------------------------------------------------- */
 
-void CellImages::find_offsets(LocalCells &cells, std::vector<Vec3> &offsets)
+void CellImages::find_offsets(LocalCells &cells, CellOffsets &offsets)
 {
   const int size = shape.vertex_count();
   const auto &local = cells.cells();
-  offsets.assign(local.size() * size, Vec3::Zero());
   const double *const *const boxes_of = find_boxes(cells.has_shared());
 
   const auto counts = count_far(cells, boxes_of);
   constexpr double near[9] = {};
-  for (std::size_t c = 0; c < local.size(); ++c)
+  std::vector<Vec3> of_vertices(size);
+  offsets.clear();
+  for (std::size_t c = 0; c < local.size(); ++c) {
     for (int v = 0; v < size; ++v) {
       if (local[c].atom[v] < 0) continue;
       for (int d = 0; d < 3; ++d) {
         const double *const count = counts.empty() ? near : &counts[9 * c + d];
         double n = boxes_of[local[c].atom[v]][d];
         if (count[0] > 0 && count[3] > 0) n += 2 * IMGMAX * ((n < -IMGMAX / 2) - (count[6] > 0));
-        offsets[c * size + v][d] = n * domain->prd[d];
+        of_vertices[v][d] = n * domain->prd[d];
       }
     }
+    offsets.add(of_vertices, local[c].atom);
+  }
+  free_memory();
+}
+
+/* ----------------------------------------------------------------------
+   what is needed now and then is not kept: it is as much as the atoms themselves take
+------------------------------------------------------------------------- */
+
+void CellImages::free_memory()
+{
+  std::vector<Vec3>().swap(shifts);
+  std::vector<char>().swap(placed);
+  std::vector<double>().swap(numbers);
+  std::vector<double *>().swap(rows);
 }
 
 /* ----------------------------------------------------------------------
@@ -272,7 +289,8 @@ CellImages::Stretch CellImages::largest_stretch(LocalCells &cells)
   tagint molecule = MAXTAGINT;
   for (std::size_t c = 0; c < local.size(); ++c) {
     set_current_cell(local[c].atom);
-    shifts.assign(local[c].offset, local[c].offset + size);
+    shifts.resize(size);
+    for (int v = 0; v < size; ++v) shifts[v] = local[c].offset[v];
     const rbc::JoinedVertices::Edge edge =
         joined.most_stretched({wrapped.data(), is_known.data(), is_known.data(), shifts.data()});
     if (edge.ratio <= ratio) continue;

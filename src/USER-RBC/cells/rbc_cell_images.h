@@ -1,6 +1,7 @@
 #ifndef LMP_RBC_CELL_IMAGES_H
 #define LMP_RBC_CELL_IMAGES_H
 
+#include "cells/rbc_cell_offsets.h"
 #include "geometry/joined_vertices.h"
 #include "lmptype.h"
 #include "pointers.h"
@@ -24,9 +25,8 @@ class CellImages : protected Pointers {
   /// not meet those of others; flags that change are a warning.
   void correct_flags(LocalCells &cells);
 
-  /// Sets `offsets`, an entry for each vertex of each of this rank's cells, to what leads from
-  /// LAMMPS's position to the unwrapped one. Entries of unknown vertices are 0.
-  void find_offsets(LocalCells &cells, std::vector<rbc::Vec3> &offsets);
+  /// Sets `offsets` of this rank's cells to what leads from LAMMPS's positions to unwrapped ones.
+  void find_offsets(LocalCells &cells, CellOffsets &offsets);
 
   struct Stretch {
     double ratio;       ///< of an edge to its length in the template
@@ -40,10 +40,11 @@ class CellImages : protected Pointers {
   std::string style;
   rbc::JoinedVertices joined;
 
-  // entries as `offsets`
+  // an entry for each vertex of each of this rank's cells, while flags are corrected
   std::vector<rbc::Vec3> shifts;
   std::vector<char> placed;    ///< whether the shift of a vertex is known
 
+  // while ghosts are told
   std::vector<double> numbers;    ///< three for each atom
   std::vector<double *> rows;
 
@@ -59,6 +60,7 @@ class CellImages : protected Pointers {
   imageint flags_of(const rbc::Vec3 &shift, imageint old) const;
   void warn_of_corrections(LocalCells &cells, std::vector<double> &corrected);
   const double *const *find_boxes(bool of_ghosts);
+  void free_memory();
   std::vector<double> count_far(LocalCells &cells, const double *const *boxes_of);
 };
 

@@ -91,7 +91,12 @@ void CellMembranes::update_ownership()
   const std::size_t count = cells_.cells().size();
   sizes_.resize(2 * count);
   volume_rates_.resize(count);
-  volume_gradient_.resize(keeps_volume() ? count * shape().vertex_count() : 0);
+  const auto shared = std::count_if(cells_.cells().begin(), cells_.cells().end(),
+                                    [](const LocalCells::Cell &cell) { return cell.shared; });
+  if (keeps_volume()) {
+    gradient_.resize(shape().vertex_count());
+    shared_gradient_.resize(shared * shape().vertex_count());
+  }
   linear_at_.resize(is_thinning() ? count * shape().vertex_count() : 0);
 }
 
@@ -336,67 +341,82 @@ void CellMembranes::constrain_volume(double dt, bool new_step, bool mid_step)
   const double rest = (mid_step ? swelling.middle() : swelling.now()) * shape().volume;
   const auto rate = [](double change, double time) { return time > 0 ? change / time : 0; };
   const double rest_rate = rate(swelling.change() * shape().volume, dt);
-  find_volume_sums();
 
-  const auto &local = cells_.cells();
-  for (std::size_t c = 0; c < local.size(); ++c) {
-    const LocalCells::Cell &cell = local[c];
-    if (!(sums_[3 * c + 2] > 0)) report(cell, "the cell turned inside out", Flaw::folded);
-    if (new_step) volume_rates_[c] = rate(rest - sums_[3 * c + 2], VOLUME_STEPS * dt);
-    const double factor = (volume_rates_[c] + rest_rate - sums_[3 * c]) / sums_[3 * c + 1];
-    add_volume_gradient(c, factor);
-  }
+  add_volume_gradients([&](std::size_t c, const VolumeSums &sums) {
+    if (!(sums.volume > 0)) report(cells_.cells()[c], "the cell turned inside out", Flaw::folded);
+    if (new_step) volume_rates_[c] = rate(rest - sums.volume, VOLUME_STEPS * dt);
+    return (volume_rates_[c] + rest_rate - sums.rate) / sums.square;
+  });
   stopwatch_.stop();
 }
 
 void CellMembranes::remove_volume_change()
 {
   stopwatch_.start();
-  find_volume_sums();
-  for (std::size_t c = 0; c < cells_.cells().size(); ++c)
-    add_volume_gradient(c, -sums_[3 * c] / sums_[3 * c + 1]);
+  add_volume_gradients(
+      [](std::size_t /*c*/, const VolumeSums &sums) { return -sums.rate / sums.square; });
   stopwatch_.stop();
 }
 
 /* ----------------------------------------------------------------------
-   to the velocities of this rank's vertices of cell c here
+   Adds factor(c, sums) times the volume's gradient to the velocities of each cell c here. Gradients
+   are kept for those cells alone whose sums come from several ranks.
 ------------------------------------------------------------------------- */
 
-void CellMembranes::add_volume_gradient(std::size_t c, double factor)
+template <typename Factor> void CellMembranes::add_volume_gradients(const Factor &factor)
 {
-  const LocalCells::Cell &cell = cells_.cells()[c];
   const int size = shape().vertex_count();
-  const Vec3 *const gradient = &volume_gradient_[c * size];
-  for (int i = 0; i < size; ++i) {
-    if (!cell.elements->owned[i]) continue;
-    double *const velocity = atom->v[cell.atom[i]];
-    for (int d = 0; d < 3; ++d) velocity[d] += factor * gradient[i][d];
+  const auto &local = cells_.cells();
+  sums_.assign(VolumeSums::COUNT * local.size(), 0.0);
+  Vec3 *kept = shared_gradient_.data();
+  for (std::size_t c = 0; c < local.size(); ++c) {
+    if (!local[c].shared) continue;
+    const VolumeSums share = find_volume_gradient(local[c], kept);
+    share.store(&sums_[VolumeSums::COUNT * c]);
+    kept += size;
+  }
+  cells_.sum_shared(sums_, VolumeSums::COUNT);
+
+  kept = shared_gradient_.data();
+  for (std::size_t c = 0; c < local.size(); ++c) {
+    if (local[c].shared) {
+      const VolumeSums sums(&sums_[VolumeSums::COUNT * c]);
+      add_volume_gradient(local[c], factor(c, sums), kept);
+      kept += size;
+    } else {
+      const VolumeSums sums = find_volume_gradient(local[c], gradient_.data());
+      add_volume_gradient(local[c], factor(c, sums), gradient_.data());
+    }
   }
 }
 
 /* ----------------------------------------------------------------------
-   Fills sums_ with three numbers for each cell here, summed over ranks: sum of dV/dx_i . v_i, sum
-   of |dV/dx_i|^2, and the volume V. Also fills volume_gradient_.
+   at the vertices of this rank; returns their share of the sums
 ------------------------------------------------------------------------- */
 
-void CellMembranes::find_volume_sums()
+CellMembranes::VolumeSums CellMembranes::find_volume_gradient(const LocalCells::Cell &cell,
+                                                              Vec3 *gradient)
 {
   double **const v = atom->v;
-  const int size = shape().vertex_count();
-  const auto &local = cells_.cells();
-  sums_.assign(3 * local.size(), 0.0);
-  for (std::size_t c = 0; c < local.size(); ++c) {
-    const LocalCells::Cell &cell = local[c];
-    cells_.gather(cell, x_);
-    Vec3 *const gradient = &volume_gradient_[c * size];
-    sums_[3 * c + 2] = gradient_of_.find(*cell.elements, x_.data(), gradient);
-    for (int i = 0; i < size; ++i) {
-      if (!cell.elements->owned[i]) continue;
-      sums_[3 * c] += gradient[i].dot(Vec3(v[cell.atom[i]]));
-      sums_[3 * c + 1] += gradient[i].squaredNorm();
-    }
+  cells_.gather(cell, x_);
+  VolumeSums sums;
+  sums.volume = gradient_of_.find(*cell.elements, x_.data(), gradient);
+  for (int i = 0; i < shape().vertex_count(); ++i) {
+    if (!cell.elements->owned[i]) continue;
+    sums.rate += gradient[i].dot(Vec3(v[cell.atom[i]]));
+    sums.square += gradient[i].squaredNorm();
   }
-  cells_.sum_shared(sums_, 3);
+  return sums;
+}
+
+void CellMembranes::add_volume_gradient(const LocalCells::Cell &cell, double factor,
+                                        const Vec3 *gradient)
+{
+  for (int i = 0; i < shape().vertex_count(); ++i) {
+    if (!cell.elements->owned[i]) continue;
+    double *const velocity = atom->v[cell.atom[i]];
+    for (int d = 0; d < 3; ++d) velocity[d] += factor * gradient[i][d];
+  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -416,6 +436,6 @@ void CellMembranes::report(const LocalCells::Cell &cell, const std::string &what
 double CellMembranes::bytes() const
 {
   const double vertices = static_cast<double>(cells_.cells().size()) * shape().vertex_count();
-  return vertices * (sizeof(int) + sizeof(Vec3) + sizeof(char)) +
-         (volume_gradient_.size() + linear_at_.size()) * sizeof(Vec3) + cells_.bytes();
+  return vertices * sizeof(int) + (shared_gradient_.size() + linear_at_.size()) * sizeof(Vec3) +
+         cells_.bytes();
 }

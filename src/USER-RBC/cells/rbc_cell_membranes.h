@@ -145,6 +145,26 @@ class CellMembranes : public StepPart, protected Pointers {
   double bytes() const;
 
  private:
+  /// Over the vertices i of a cell with volume V.
+  struct VolumeSums {
+    static constexpr int COUNT = 3;
+    double rate = 0;      ///< sum of dV/dx_i . v_i
+    double square = 0;    ///< sum of |dV/dx_i|^2
+    double volume = 0;
+
+    VolumeSums() = default;
+    explicit VolumeSums(const double *numbers) :
+        rate(numbers[0]), square(numbers[1]), volume(numbers[2])
+    {
+    }
+    void store(double *numbers) const
+    {
+      numbers[0] = rate;
+      numbers[1] = square;
+      numbers[2] = volume;
+    }
+  };
+
   std::string style_;
   int groupbit_;
   MembraneSettings settings_;
@@ -163,7 +183,7 @@ class CellMembranes : public StepPart, protected Pointers {
   // of all cells here
   std::vector<double> sizes_;    ///< area and volume of each
   std::vector<double> volume_rates_, sums_;
-  std::vector<rbc::Vec3> volume_gradient_;    ///< of each vertex
+  std::vector<rbc::Vec3> shared_gradient_;    ///< of each vertex of the cells that ranks share
   std::vector<rbc::Vec3> linear_at_;          ///< velocity of each vertex
   bool viscosity_frozen_ = false;
   bool nearly_folded_ = false;
@@ -180,8 +200,9 @@ class CellMembranes : public StepPart, protected Pointers {
   void share_velocities();
   double viscous_forces(const LocalCells::Cell &cell);
   void add_to_atoms(const LocalCells::Cell &cell, bool with_virial);
-  void find_volume_sums();
-  void add_volume_gradient(std::size_t c, double factor);
+  template <typename Factor> void add_volume_gradients(const Factor &factor);
+  VolumeSums find_volume_gradient(const LocalCells::Cell &cell, rbc::Vec3 *gradient);
+  void add_volume_gradient(const LocalCells::Cell &cell, double factor, const rbc::Vec3 *gradient);
   void report(const LocalCells::Cell &cell, const std::string &what, Flaw flaw);
 };
 

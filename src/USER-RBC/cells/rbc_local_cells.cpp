@@ -130,7 +130,7 @@ std::vector<int> LocalCells::find_owned()
     if (cell.place < 0) {
       cell.place = static_cast<int>(local.size());
       local.push_back(
-          {cell.index, found->first, cell.first, nullptr, nullptr, nullptr, Vec3::Zero(), false});
+          {cell.index, found->first, cell.first, nullptr, nullptr, {}, Vec3::Zero(), false});
       owned_count.push_back(0);
       atoms.resize(atoms.size() + size, -1);
     }
@@ -260,8 +260,7 @@ void LocalCells::find_images(bool starts_run)
 {
   if (starts_run) images.correct_flags(*this);
   images.find_offsets(*this, offsets);
-  for (std::size_t c = 0; c < local.size(); ++c)
-    local[c].offset = &offsets[c * shape.vertex_count()];
+  for (std::size_t c = 0; c < local.size(); ++c) local[c].offset = offsets[c];
 }
 
 /* ----------------------------------------------------------------------
@@ -276,12 +275,12 @@ void LocalCells::set_origins()
     for (int v = 0; v < size; ++v) {
       if (!local[c].elements->owned[v]) continue;
       const int i = atoms[c * size + v];
-      for (int d = 0; d < 3; ++d) position[3 * c + d] += atom->x[i][d] + offsets[c * size + v][d];
+      for (int d = 0; d < 3; ++d) position[3 * c + d] += atom->x[i][d] + local[c].offset[v][d];
     }
   sum_shared(position, 3);
   for (std::size_t c = 0; c < local.size(); ++c) {
     local[c].origin = Vec3(&position[3 * c]) / size;
-    for (int v = 0; v < size; ++v) offsets[c * size + v] -= local[c].origin;
+    offsets.subtract(c, local[c].origin);
   }
 }
 
@@ -300,6 +299,6 @@ void LocalCells::sum_shared(std::vector<double> &values, int width)
 
 double LocalCells::bytes() const
 {
-  return directory.bytes() +
+  return directory.bytes() + static_cast<double>(offsets.bytes()) +
          static_cast<double>(known_cells.size() * (sizeof(Known::value_type) + 2 * sizeof(void *)));
 }

@@ -25,8 +25,9 @@ class LocalCells : protected Pointers {
     int index;                 ///< among all cells
     tagint molecule, first;    ///< its ID and the lowest atom ID
     const rbc::CellElements *elements;
-    const int *atom;            ///< local index of each vertex, -1 where unknown
-    const rbc::Vec3 *offset;    ///< of each vertex, from LAMMPS's position to one near the origin
+    const int *atom;    ///< local index of each vertex, -1 where unknown
+    CellOffsets::OfCell
+        offset;    ///< of each vertex, from LAMMPS's position to one near the origin
     /// From where the cell's coordinates count. The boxes that lie between are those of the first
     /// vertex's image flags.
     rbc::Vec3 origin;
@@ -97,7 +98,7 @@ class LocalCells : protected Pointers {
 
   std::vector<Cell> local;
   std::vector<int> atoms;
-  std::vector<rbc::Vec3> offsets;
+  CellOffsets offsets;
   CellImages images;
   bool starts_run = true;    ///< the next update_ownership() is the first one of a run
   rbc::CellElements whole;
