@@ -141,8 +141,8 @@ Fourier::Fourier(const Grid &grid, const Decomposition &decomposition, std::size
   work_ = Buffer<double>(std::max(lent, modes + (to_x_.identity() ? 0 : real)));
   modes_ = {pencils.z[me], reinterpret_cast<Complex *>(work_.data())};
   if (!to_x_.identity()) real_ = {real_x_, work_.data() + modes};
-  x_to_y_ = {comm, pencils.x, pencils.y, nullptr};
   y_to_z_ = {comm, pencils.y, pencils.z, &modes_};
+  x_to_y_ = {comm, pencils.x, pencils.y, y_to_z_.identity() ? &modes_ : nullptr};
 
   x_transform_ = RowTransform(grid.cells[0]);
   const int ny = grid.cells[1], columns = y_.extent(0), row = padded(columns);
@@ -212,7 +212,7 @@ template <std::size_t N> void Fourier::forward(const std::array<View<double>, N>
     x_to_y_.forward(N);
     for_each_plane(N, y_, [&](int c, int k) {
       const View<Complex> plane = y_plane(c, k);
-      x_to_y_.to().take(c, plane, k);
+      if (!y_in_place_) x_to_y_.to().take(c, plane, k);
       finish(c, plane, k);
     });
   }
@@ -232,7 +232,7 @@ template <std::size_t N> void Fourier::backward(const std::array<View<double>, N
     for_each_plane(N, y_, [&](int c, int k) {
       const View<Complex> plane = y_plane(c, k);
       start(c, plane, k);
-      x_to_y_.to().put(c, plane, k);
+      if (!y_in_place_) x_to_y_.to().put(c, plane, k);
     });
     x_to_y_.backward(N);
   }

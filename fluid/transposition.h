@@ -31,8 +31,8 @@ class DataType {
 
 /// Moves one or three components of a distributed complex array from one set of boxes (rank r owns
 /// from[r]) to another, to[r]. A rank holds either of its boxes cut into pieces, one for each rank
-/// it shares cells with; pieces are sent as they stand, and the piece a rank shares with itself is
-/// the same memory on both sides.
+/// it shares cells with, stored by themselves or as parts of a whole. Pieces are sent as they stand,
+/// and the piece a rank shares with itself is the same memory on both sides.
 class Transposition {
  public:
   /// A rank's box on one side, filled and read plane by plane (z fixed).
@@ -45,12 +45,19 @@ class Transposition {
     friend class Transposition;
     struct Piece {
       int rank;
-      View<Complex> values;    ///< of the first component
+      Box box;
+      View<Complex> stored;    ///< of the first component: the piece, or a whole that it is part of
       std::ptrdiff_t component_stride;
-      DataType three_components;
+      DataType one_component, three_components;
+
+      Complex *row(int component, int j, int k) const
+      {
+        return &stored(box.lo[0], j, k) + component * component_stride;
+      }
     };
 
-    void add(int rank, const Box &box, Complex *data, std::ptrdiff_t component_stride);
+    void add(int rank, const Box &box, const View<Complex> &stored,
+             std::ptrdiff_t component_stride);
 
     std::vector<Piece> pieces_;
   };
@@ -59,8 +66,7 @@ class Transposition {
 
   Transposition() = default;
 
-  /// Where `whole` is given, it stores the box to[rank], and the pieces on that side are its parts:
-  /// each must cover to[rank] in x and y.
+  /// Where `whole` is given, it stores the box to[rank], and the pieces on that side are its parts.
   Transposition(MPI_Comm comm, const std::vector<Box> &from, const std::vector<Box> &to,
                 const Components<Complex, max_components> *whole);
 
