@@ -104,7 +104,9 @@ class Installed(unittest.TestCase):
     def test_has_what_the_repository_has(self):
         share = self.prefix / "share" / "user-rbc"
         for folder, names in (("potentials", ("*.mol", "*.material", "*.blood", "*.py")),
-                              ("scripts", ("*.py",)), ("examples", ("*/in.*",))):
+                              ("scripts", ("*.py",)),
+                              ("examples", ("*/in.*", "*/cells.txt", "*/velocity.py",
+                                            "*/seeds.py"))):
             for name in names:
                 expected = [path.relative_to(ROOT) for path in (ROOT / folder).glob(name)]
                 self.assertGreater(len(expected), 0)
