@@ -52,9 +52,7 @@ void FixRBCPort::init()
   if (update->whichflag == 2) error->all(FLERR, "Fix rbc/port cannot be used with minimize");
 }
 
-/* ----------------------------------------------------------------------
-   null once its fix is deleted
-------------------------------------------------------------------------- */
+/* ---------------------------------------------------------------------- */
 
 DrivenFlow *FixRBCPort::driven_flow() const
 {

@@ -30,12 +30,11 @@ class FixRBCPort : public Fix, public FluidClient {
 
   const std::string &fluid_id() const override { return fluid; }
   Port *port() override { return &opening; }
+  class DrivenFlow *driven_flow() const;    ///< null once its fix is deleted
 
  private:
   std::string fluid;
   Port opening;
-
-  class DrivenFlow *driven_flow() const;
 };
 
 }    // namespace LAMMPS_NS

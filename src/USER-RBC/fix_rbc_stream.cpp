@@ -4,18 +4,15 @@
 #include "cells/rbc_cell_template.h"
 #include "cells/rbc_whole_cells.h"
 #include "comm.h"
-#include "coupling/rbc_flow_inside.h"
 #include "domain.h"
 #include "error.h"
 #include "fix_rbc_port.h"
 #include "group.h"
 #include "modify.h"
-#include "region.h"
 #include "support/rbc_arguments.h"
 #include "update.h"
 
 #include <algorithm>
-#include <cstring>
 #include <tuple>
 
 using namespace LAMMPS_NS;
@@ -25,10 +22,6 @@ using rbc::Vec3;
 // numbers of the output: of all openings, then of each outlet
 
 static constexpr int NUMBERS = 8, OUTLET_NUMBERS = 3;
-
-// points along each side of the region's extent by which its volume is measured
-
-static constexpr int SAMPLES = 32;
 
 /* ---------------------------------------------------------------------- */
 
@@ -162,56 +155,28 @@ void FixRBCStream::find_membranes()
 }
 
 /* ----------------------------------------------------------------------
-   New cells belong to this group and to all. The rates of ports are known once fix rbc/ib has had
-   its turn at the start of a run.
+   New cells belong to this group, to all, and to the group of the fix rbc/ib of this flow, which
+   may move other kinds of cells, too. The rates of ports are known once that fix has had its turn at
+   the start of a run.
 ------------------------------------------------------------------------- */
 
-void FixRBCStream::check_moved() const
+void FixRBCStream::check_moved()
 {
+  const std::string &fluid = find_port(port)->fluid_id();
   bool before = true;
   for (const Fix *fix : modify->get_fix_list()) {
     if (fix == this) before = false;
-    if (strcmp(fix->style, "rbc/ib") != 0 || (fix->igroup != 0 && fix->igroup != igroup)) continue;
-    if (before) return;
-    error->all(FLERR, "{} must be defined after fix rbc/ib {}", style, fix->id);
+    const auto *const client = dynamic_cast<const FluidClient *>(fix);
+    if (!client || !client->drives_flow() || client->fluid_id() != fluid) continue;
+    if (!before) error->all(FLERR, "{} must be defined after fix rbc/ib {}", style, fix->id);
+    if (group->dynamic[fix->igroup])
+      error->all(FLERR, "{}: group {} of fix rbc/ib {} must not be dynamic", style,
+                 group->names[fix->igroup], fix->id);
+    moved_groupbit = fix->groupbit;
+    return;
   }
-  error->all(FLERR,
-             "{}: new cells would not be moved: there is no fix rbc/ib of its group, {}, or of "
-             "group all",
-             style, group->names[igroup]);
-}
-
-/* ---------------------------------------------------------------------- */
-
-void FixRBCStream::find_feed()
-{
-  const std::string use = "f" + style.substr(1);
-  for (const Outlet &outlet : outlets) fixed_region(lmp, outlet.region, use + " outlet");
-  Region *const where = fixed_region(lmp, region, use);
-  feed.emplace(where, domain, -gap / 2);
-  feed_lo = Vec3(domain->boxlo);
-  Vec3 hi(domain->boxhi);
-  if (where->bboxflag) {
-    feed_lo = feed_lo.cwiseMax(Vec3(where->extent_xlo, where->extent_ylo, where->extent_zlo));
-    hi = hi.cwiseMin(Vec3(where->extent_xhi, where->extent_yhi, where->extent_zhi));
-  }
-  feed_length = hi - feed_lo;
-  int inside = 0;
-  if (feed_length.minCoeff() > 0)
-    for (int n = 0; n < SAMPLES * SAMPLES * SAMPLES; ++n) {
-      const Vec3 share(n % SAMPLES, n / SAMPLES % SAMPLES, n / (SAMPLES * SAMPLES));
-      inside += feed->contains(feed_lo +
-                               feed_length.cwiseProduct((share.array() + 0.5).matrix() / SAMPLES));
-    }
-  const double volume = feed_length.prod() * inside / std::pow(SAMPLES, 3);
-  if (inside == 0)
-    error->all(FLERR, "Region {} for {} holds nothing of the simulation box", region, use);
-  room = hematocrit * volume / membranes->shape().volume;
-  placement->confine(*feed, feed_lo, feed_length);
-  if (along < 0) return;
-  const std::vector<double> state = stretch ? stretch->state() : remembered;
-  stretch.emplace(feed_length[along], placement->reach());
-  stretch->restore(state);
+  error->all(FLERR, "{}: new cells would not be moved: there is no fix rbc/ib of fix rbc/fluid {}",
+             style, fluid);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -68,9 +68,10 @@ class FixRBCStream : public Fix, public CellSource {
   std::optional<rbc::CellPlacement> placement;
   std::optional<rbc::PeriodicStretch> stretch;    // known to rank 0
   std::vector<double> remembered;                 // of it, from a restart file
-  std::optional<RegionEnclosure> feed;            // where they appear
+  std::optional<CommonEnclosure> feed;            // where they appear
   rbc::Vec3 feed_lo, feed_length;
   double room = 0;                            // cells of this hematocrit in it
+  int moved_groupbit = 0;                     // of the fix rbc/ib that moves them
   tagint last_atom = 0, last_molecule = 0;    // highest IDs there have been
   bool warned = false;
   std::map<tagint, std::vector<rbc::Vec3>> waiting;    // vertices of cells to be copied, on rank 0
@@ -84,8 +85,9 @@ class FixRBCStream : public Fix, public CellSource {
   void check_ports();
   class CellMembranes *membranes_of_group() const;
   void find_membranes();
-  void check_moved() const;
+  void check_moved();
   void find_feed();
+  std::vector<rbc::Vec3> feed_points() const;
   class FixRBCPort *find_port(const std::string &) const;
   double rate_through(const std::string &) const;
   std::vector<double> rates_out() const;

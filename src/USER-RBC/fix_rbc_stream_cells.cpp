@@ -413,7 +413,7 @@ void FixRBCStream::add_arrivals()
       if (made.index < 0) continue;
       atom->molecule[made.index] = last_molecule;
       atom->image[made.index] = made.image;
-      atom->mask[made.index] |= groupbit;
+      atom->mask[made.index] |= groupbit | moved_groupbit;
     }
   }
   atoms.finish();

@@ -380,6 +380,10 @@ ERRORS = {
     "no such region of an outlet": (
         STREAM.replace("outlet out last", "outlet out there"),
         ["Region ID there for fix rbc/stream stream outlet does not exist"]),
+    "region outside of the vessel": (
+        f"region beside block {FEED[0]} {FEED[1]} 0 2 0 2\n" + STREAM.replace("feed", "beside"),
+        ["Region beside for fix rbc/stream stream lies outside of the vessel, region tube of fix "
+         "rbc/fluid flow"]),
     "empty region": ("region none block -9 -8 0 1 0 1\n" + STREAM.replace("feed", "none"),
                      ["Region none for fix rbc/stream stream holds nothing"]),
     "region that moves": (
@@ -398,8 +402,14 @@ class Errors(BadInput):
                 self.refused(result, ERRORS[name][1])
 
     def test_cells_that_nothing_moves(self):
-        line = stream_fix(STREAM).replace("fix ib cells", "group moved type 1\nfix ib moved")
-        self.refused(attempt(stream(ib=line)), ["new cells would not be moved"])
+        line = "\n".join(stream_fix(STREAM).splitlines()[1:])
+        self.refused(attempt(stream(ib=line)),
+                     ["new cells would not be moved: there is no fix rbc/ib of fix rbc/fluid flow"])
+
+    def test_a_group_that_changes(self):
+        line = stream_fix(STREAM).replace(
+            "fix ib cells", "group moved dynamic all region tube\nfix ib moved")
+        self.refused(attempt(stream(ib=line)), ["group moved of fix rbc/ib ib must not be dynamic"])
 
     def test_before_the_flow_is_known(self):
         first, *others = stream_fix(STREAM).splitlines()

@@ -186,6 +186,7 @@ class DrivenFlow : public StepPart, protected Pointers {
   bigint solves() const { return flow_->solves() + earlier_solves_; }
   void set_earlier_solves(bigint solves) { earlier_solves_ = solves; }
   const fluid::FlowDiagnostics &diagnostics();
+  const std::string &inside_region() const { return inside_.region(); }    ///< empty: all the box
   std::array<double, 3> mean_inside();
   double inside_volume() { return inside_.volume(*flow_); }
 

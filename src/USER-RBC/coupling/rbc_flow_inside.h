@@ -22,6 +22,7 @@ class FlowInside : protected Pointers {
   FlowInside(LAMMPS *lmp, std::string style, std::string region);
 
   const std::string &style() const { return style_; }
+  const std::string &region() const { return region_id_; }    ///< empty: none was given
 
   /// Call when the region or the decomposition of the flow may have changed: the inside is found
   /// anew when next asked for.
