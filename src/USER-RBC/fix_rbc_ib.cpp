@@ -2,6 +2,7 @@
 
 #include "atom.h"
 #include "cells/rbc_cell_membranes.h"
+#include "cells/rbc_enclosed_atoms.h"
 #include "cells/rbc_unheld_cells.h"
 #include "comm.h"
 #include "coupling/rbc_memory_table.h"
@@ -258,6 +259,7 @@ void FixRBCIB::setup(int /*vflag*/)
   else if (flow->has_inertia() && flow->flow().steps() == 0)
     markers->interpolate();
   do_or_run_out(lmp, fmt::format("Fix rbc/ib {}", id), [this] { steps->setup(); });
+  warn_of_enclosed_atoms(lmp, fmt::format("Fix rbc/ib {}", id), groupbit);
   flow->scene().print(*flow);
 
   std::vector<StepPart *> parts;

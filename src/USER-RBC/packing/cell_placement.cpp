@@ -1,5 +1,6 @@
 #include "packing/cell_placement.h"
 
+#include "geometry/solid_angle.h"
 #include "geometry/triangle_distance.h"
 #include "packing/surface_gap.h"
 
@@ -51,19 +52,12 @@ std::vector<BoundedTriangle> facing(const std::vector<Vec3> &vertices,
   return found;
 }
 
-/// By the solid angle that a closed surface fills, seen from there (van Oosterom and Strackee,
-/// IEEE Trans Biomed Eng 30, 125, 1983).
 bool is_inside(const Vec3 &x, const CellPlacement::Surface &surface)
 {
-  double half_angle = 0;
-  for (const auto &[i, j, k] : *surface.triangles) {
-    const Vec3 a = surface.vertices[i] - x, b = surface.vertices[j] - x,
-               c = surface.vertices[k] - x;
-    const double na = a.norm(), nb = b.norm(), nc = c.norm();
-    half_angle +=
-        std::atan2(a.dot(b.cross(c)), na * nb * nc + a.dot(b) * nc + b.dot(c) * na + c.dot(a) * nb);
-  }
-  return std::abs(half_angle) > M_PI;    // 2 pi inside, 0 outside
+  double angle = 0;
+  for (const auto &[i, j, k] : *surface.triangles)
+    angle += solid_angle(surface.vertices[i] - x, surface.vertices[j] - x, surface.vertices[k] - x);
+  return std::abs(angle) > 2 * M_PI;    // 4 pi inside, 0 outside
 }
 
 /// Neither nearer than the gap nor one inside the other.
