@@ -168,6 +168,8 @@ def plot(results, path):
         right.plot(inner, curve[1:-1] / inner, style, color="#555555", label=label)
     left.plot([0, 1], [0, 1], ":", color="#999999", label="no skimming")
     right.axhline(1, ls=":", color="#999999")
+    right.errorbar([], [], [], fmt="o", color="#b3202a", ms=4, capsize=3,
+                   label="counted, two standard errors")
     for row in results.values():
         for share, part in ((row["share"], row["part"]), (1 - row["share"], 1 - row["part"])):
             left.errorbar(share, part, 2 * row["error"], fmt="o", color="#b3202a", ms=4, capsize=3)
