@@ -178,11 +178,12 @@ void TimeSteps::start_velocities()
 
 void TimeSteps::show_velocities()
 {
-  markers_.load(atom->f, V_new_);
+  rbc::Numbers &forces = integrator_->work()[0];
+  markers_.load(atom->f, forces);
   markers_.velocities_from_forces(ImmersedMarkers::Stage::start);
   flow_->finish_evaluation();
   markers_.store(V_, atom->v);
-  markers_.store(V_new_, atom->f);
+  markers_.store(forces, atom->f);
   flow_->release_walls(true);
   flow_->hold_walls();
 }
@@ -199,9 +200,10 @@ void TimeSteps::compare_velocities()
 bool TimeSteps::are_velocities_same()
 {
   const double fastest = markers_.fastest();
-  markers_.load(atom->v, V_new_);
-  for (std::size_t i = 0; i < V_.size(); ++i) V_new_[i] -= V_[i];
-  return root_mean_square(markers_, V_new_) <=
+  rbc::Numbers &change = integrator_->work()[0];
+  markers_.load(atom->v, change);
+  for (std::size_t i = 0; i < V_.size(); ++i) change[i] -= V_[i];
+  return root_mean_square(markers_, change) <=
          std::max(SAME * root_mean_square(markers_, V_),
                   2 * markers_.implicit().tolerance() * fastest);
 }
@@ -357,9 +359,9 @@ void TimeSteps::check_result()
         fmt::format("{}: displacements grew as in an unstable step at step {}", style_, step()),
         Flaw::unstable);
   if (tries_ == 1 && !integrator_->was_sudden() && !markers_.is_nearly_folded()) return;
-  V_new_ = V_;
-  markers_.guess_velocities(V_new_);
-  markers_.velocity_at_end(X_new_, V_new_);
+  rbc::Numbers &V_new = integrator_->work()[0] = V_;
+  markers_.guess_velocities(V_new);
+  markers_.velocity_at_end(X_new_, V_new);
   velocities_known_ = true;
 }
 
@@ -367,11 +369,11 @@ void TimeSteps::measure_error()
 {
   markers_.store(X_new_, atom->x);
   report_crossings();
-  V_new_ = V_;
-  markers_.guess_velocities(V_new_);
-  markers_.velocity(X_new_, 1.0, V_new_);
+  rbc::Numbers &V_new = integrator_->work()[0] = V_;
+  markers_.guess_velocities(V_new);
+  markers_.velocity(X_new_, 1.0, V_new);
   velocities_known_ = true;
-  local_error_ = rbc::StepControl::error(markers_, update->dt, X_, X_new_, V_, V_new_);
+  local_error_ = rbc::StepControl::error(markers_, update->dt, X_, X_new_, V_, V_new);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -425,6 +427,6 @@ void TimeSteps::set_timestep(double dt, bigint from_step)
 std::size_t TimeSteps::bytes() const
 {
   std::size_t numbers = 0;
-  for (const Numbers *vector : {&X_, &V_, &X_new_, &V_new_}) numbers += vector->capacity();
+  for (const Numbers *vector : {&X_, &V_, &X_new_}) numbers += vector->capacity();
   return integrator_->bytes() + numbers * sizeof(double);
 }

@@ -89,7 +89,7 @@ class TimeSteps : protected Pointers {
 
   // Of the present step, three numbers for each marker here: positions and velocities at its start
   // and at its end, and work space.
-  rbc::Numbers X_, V_, X_new_, V_new_;
+  rbc::Numbers X_, V_, X_new_;
   double last_dt_ = 0, next_dt_ = 0, local_error_ = 0;
   bool restarted_ = false;    ///< and no run has begun since
   /// The atoms hold the velocities at the end of the step already: finish() need not compute them.

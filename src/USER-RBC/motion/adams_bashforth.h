@@ -30,7 +30,7 @@ class AdamsBashforth : public Integrator {
     store.set_known_steps(1);
   }
 
-  std::size_t bytes() const override { return last_.capacity() * sizeof(double); }
+  std::size_t bytes() const override { return work_->bytes() + last_.capacity() * sizeof(double); }
 
  private:
   static constexpr int LAST_VELOCITY = 0;

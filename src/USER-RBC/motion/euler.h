@@ -12,15 +12,10 @@ class Euler : public Integrator {
 
   void step(Motion &motion, PointStore &, const StepStart &start, Numbers &x) override
   {
-    velocity_ = start.v;
-    motion.velocity_at_start(start.x, velocity_);
-    move_along(start.x, start.dt, velocity_, x);
+    Numbers &velocity = work()[0] = start.v;
+    motion.velocity_at_start(start.x, velocity);
+    move_along(start.x, start.dt, velocity, x);
   }
-
-  std::size_t bytes() const override { return velocity_.capacity() * sizeof(double); }
-
- private:
-  Numbers velocity_;
 };
 
 }    // namespace rbc

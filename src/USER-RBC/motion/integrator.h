@@ -1,6 +1,7 @@
 #pragma once
 
 #include "motion/motion.h"
+#include "motion/work_vectors.h"
 
 #include <array>
 
@@ -103,7 +104,13 @@ class Integrator {
   virtual State state() const { return {}; }
   virtual void restore(const State & /*state*/) {}
 
-  virtual std::size_t bytes() const { return 0; }
+  /// Vectors that are of no use between the calls of its functions.
+  WorkVectors &work() { return *work_; }
+
+  virtual std::size_t bytes() const { return work_->bytes(); }
+
+ protected:
+  SharedWorkVectors work_ = std::make_shared<WorkVectors>();
 };
 
 }    // namespace rbc

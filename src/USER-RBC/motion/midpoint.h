@@ -15,15 +15,10 @@ class Midpoint : public Integrator {
   void step(Motion &motion, PointStore &, const StepStart &start, Numbers &x) override
   {
     move_along(start.x, 0.5 * start.dt, start.v, x);
-    velocity_ = start.v;
-    motion.velocity(x, 0.5, velocity_);
-    move_along(start.x, start.dt, velocity_, x);
+    Numbers &velocity = work()[0] = start.v;
+    motion.velocity(x, 0.5, velocity);
+    move_along(start.x, start.dt, velocity, x);
   }
-
-  std::size_t bytes() const override { return velocity_.capacity() * sizeof(double); }
-
- private:
-  Numbers velocity_;
 };
 
 }    // namespace rbc

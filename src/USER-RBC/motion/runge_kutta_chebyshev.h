@@ -38,7 +38,6 @@ class RungeKuttaChebyshev : public Integrator {
   std::size_t bytes() const override;
 
  private:
-  SharedWorkVectors work_ = std::make_shared<WorkVectors>();
   ChebyshevMethod chebyshev_;
   bool automatic_;
   StabilityEstimate stability_{work_};
