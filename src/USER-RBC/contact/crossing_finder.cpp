@@ -96,9 +96,10 @@ bool share_corner(const CrossingFinder::Triangle &first, const CrossingFinder::T
 CrossingFinder::Line CrossingFinder::unit(PlainVector v)
 {
   const double length = norm(v);
-  if (!(length > 0)) return {1, 0, 0};
-  return {static_cast<float>(v.x / length), static_cast<float>(v.y / length),
-          static_cast<float>(v.z / length)};
+  if (!(length > 0) || !std::isfinite(length)) return {Line::UNIT, 0, 0};
+  const double scale = Line::UNIT / length;
+  const auto toward_zero = [scale](double s) { return static_cast<std::int16_t>(scale * s); };
+  return {toward_zero(v.x), toward_zero(v.y), toward_zero(v.z)};
 }
 
 CrossingFinder::Sphere CrossingFinder::sphere_around(const double *x, const Triangle &triangle)
@@ -300,7 +301,7 @@ void CrossingFinder::consider_fans(const double *x, Pair fans)
   const Pair triangles{all.number[all.begin[fans.first]], all.number[all.begin[fans.second]]};
   const bool own = surfaces[0] == surfaces[1];
   if (own && scene_.fans_tested && !scene_.fans_tested(triangles)) return;
-  Listed listed{fans, true, true, 0, {}};
+  Listed listed{fans, 0, {}, true, true};
   try_fan_lines(listed);
   if (listed.gap > reach_) return;
   if (!own && !scene_.tested(triangles)) return;
@@ -336,7 +337,7 @@ void CrossingFinder::keep_line(Listed &listed, Line line, Bounds first, Bounds s
   const double beyond = first.lowest - second.highest, back = second.lowest - first.highest;
   if (std::max(beyond, back) <= listed.gap) return;
   listed.gap = rounded_down(std::max(beyond, back));
-  listed.line = beyond > back ? line : Line{-line.x, -line.y, -line.z};
+  listed.line = beyond > back ? line : -line;
 }
 
 void CrossingFinder::try_line(Listed &listed, const double *x, Line line) const
@@ -381,7 +382,7 @@ void CrossingFinder::consider(const double *x, Pair pair, double reach)
   if (!is_here(is_owned(pair.first), is_owned(pair.second), first.surface, second.surface)) return;
   if (first.surface == second.surface && (share_corner(first, second) || !scene_.tested(pair)))
     return;
-  Listed listed{pair, false, false, UNKNOWN, {}};
+  Listed listed{pair, UNKNOWN, {}, false, false};
   const PlainVector between = sphere_around(x, first).centre - sphere_around(x, second).centre;
   for (const PlainVector &line : {between, twice_area(x, first), twice_area(x, second)}) {
     try_line(listed, x, unit(line));

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -75,21 +76,32 @@ class CrossingFinder {
   std::size_t bytes() const;
 
  private:
-  /// Of unit length to single precision, in which its components are.
+  /// A direction in whole parts of UNIT, rounded toward zero: of unit length or a little less, so
+  /// that what is apart along it by some distance is apart by at least that.
   struct Line {
-    float x, y, z;
+    static constexpr int UNIT = std::numeric_limits<std::int16_t>::max();
+    std::int16_t x, y, z;
 
-    operator PlainVector() const { return {x, y, z}; }
+    operator PlainVector() const
+    {
+      constexpr double part = 1.0 / UNIT;
+      return {part * x, part * y, part * z};
+    }
+    Line operator-() const
+    {
+      const auto minus = [](std::int16_t s) { return static_cast<std::int16_t>(-s); };
+      return {minus(x), minus(y), minus(z)};
+    }
   };
 
   /// Two fans or two triangles, and a line along which the first is beyond the second. Kept small:
   /// there are many.
   struct Listed {
     Pair pair;
+    float gap;    ///< along the line when listed, or a little less
+    Line line;
     bool fans;
     bool apart;    ///< along the line at the start of the step
-    float gap;     ///< along it when listed, or a little less
-    Line line;
   };
 
   /// Around a triangle.
