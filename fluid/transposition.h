@@ -31,8 +31,8 @@ class DataType {
 
 /// Moves one or three components of a distributed complex array from one set of boxes (rank r owns
 /// from[r]) to another, to[r]. A rank holds either of its boxes cut into pieces, one for each rank
-/// it shares cells with, stored by themselves or as parts of a whole. Pieces are sent as they stand,
-/// and the piece a rank shares with itself is the same memory on both sides.
+/// it shares cells with, stored by themselves or as parts of a whole. Pieces are sent as they
+/// stand, and the piece a rank shares with itself is the same memory on both sides.
 class Transposition {
  public:
   /// A rank's box on one side, filled and read plane by plane (z fixed).

@@ -91,6 +91,16 @@ def stream():
     return Figures(entered=entered, left=left)
 
 
+def skimming():
+    """At three shares of the blood, that of the middle from two runs together."""
+    table = {str(row["case"]): row for row in rows("examples/skimming/skimming.csv")}
+    cases = [table[name] for name in ("0.9", "0.75 both", "0.6")]
+    return Figures(cells=least_and_most(row["cells"] for row in cases),
+                   part=[100 * row["part"] for row in cases],
+                   error=[100 * row["error"] for row in cases],
+                   law=[100 * row["pries_2005"] for row in cases])
+
+
 def bending():
     table = {row["vertices"]: row for row in chosen("bench/bending.csv", form="helfrich")}
     return Figures(sphere=100 * table[2562]["sphere_energy"],
@@ -386,7 +396,7 @@ def setting(row):
                      for name, word in pairs)
 
 
-FIGURES = (divergence, drag, curved_walls, ports, network, stream, bending, stretch, relaxation,
+FIGURES = (divergence, drag, curved_walls, ports, network, stream, skimming, bending, stretch, relaxation,
            tank_treading, volume, stiff, capsule_channel, capsule_shear, python, contrast,
            fahraeus, suspension, slow_blood, ranks, kernels, scaling, membrane, contact,
            couette_start, cost, converge)

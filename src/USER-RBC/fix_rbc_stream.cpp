@@ -156,8 +156,8 @@ void FixRBCStream::find_membranes()
 
 /* ----------------------------------------------------------------------
    New cells belong to this group, to all, and to the group of the fix rbc/ib of this flow, which
-   may move other kinds of cells, too. The rates of ports are known once that fix has had its turn at
-   the start of a run.
+   may move other kinds of cells, too. The rates of ports are known once that fix has had its turn
+   at the start of a run.
 ------------------------------------------------------------------------- */
 
 void FixRBCStream::check_moved()

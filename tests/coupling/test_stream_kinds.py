@@ -6,8 +6,8 @@ import numpy as np
 
 from lammps_case import dump_line, run
 from test_ports import TUBE
-from test_stream import (CONTACT, DUMP, EMPTY, GAP, MEMBRANE, RADIUS, SIDE, STREAM, cells_of, stream,
-                         stream_fix)
+from test_stream import (CONTACT, DUMP, EMPTY, GAP, MEMBRANE, RADIUS, SIDE, STREAM, cells_of,
+                         stream, stream_fix)
 
 
 class Kinds(unittest.TestCase):
