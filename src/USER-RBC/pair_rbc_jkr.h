@@ -47,6 +47,7 @@ class PairRBCJKR : public Pair, public StepPart, public CellContact, public Cell
   double memory_usage() override;
 
   double contact_range(int, int) const override;
+  double adhesion(int i, int j) const override { return types(i, j).work; }
   const std::vector<rbc::VertexContact> &near_contacts() const override;
   double seen_gap() const override { return std::max(range, widest_gap); }
   bool sees_this_step() const override;

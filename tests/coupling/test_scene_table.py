@@ -7,6 +7,9 @@ import unittest
 import numpy as np
 
 from lammps_case import POTENTIALS, SHEAR, in_parallel, read_template, run, scene, version
+from test_ports import TUBE
+from test_stream import CONTACT as CONTACT_OF_STREAM
+from test_stream import EMPTY, MEMBRANE, stream
 
 PLATES = SHEAR["fluid"].replace("dx 1.0", "dx 1.2")
 TWO = {"box": "region box block 0 24 0 12 0 12",
@@ -56,7 +59,7 @@ class Numbers(unittest.TestCase):
         self.assertRegex(result.printed,
                          r"scene: 10 x 10 x 10 fluid cells, spacing 1.2, neighbor skin 1 spacings, "
                          rf"{int(np.ceil(0.5 + 1)) + 2 + 2} ghost layers")
-        self.assertIn("Plates: shear rate 0.0001; no fix wall repels cells from them",
+        self.assertIn("Plates: shear rate 0.0001 (100 /s); no fix wall repels cells from them",
                       result.printed)
         self.assertEqual(warnings(result), [])
 
@@ -108,6 +111,20 @@ class Numbers(unittest.TestCase):
                     self.assertRegex(warnings(result)[0],
                                      "nothing repels the 2 cells from the plates; use plates yes")
 
+    def test_what_repels_cells_that_are_still_to_come(self):
+        """In a vessel without cells, which fix rbc/stream is about to fill."""
+        held = "group others empty\nfix off {} wall/region tube harmonic 0.1 1 0.5"
+        cases = {"pair rbc/jkr walls tube": CONTACT_OF_STREAM,
+                 "wall/region off": held.format("cells"), "": held.format("others")}
+        results = in_parallel(
+            lambda contact: run(stream(**EMPTY, run="run 0",
+                                       wall=f"{TUBE['wall']}\n{MEMBRANE}\n{contact}")),
+            [(contact,) for contact in cases.values()])
+        for name, result in zip(cases, results):
+            self.assertEqual(rows(result)["mem"][0], 0)
+            self.assertIn(f"; cells are repelled by {name}\n" if name else
+                          "; no fix wall repels cells from them\n", result.printed)
+
     def test_fastest_wall(self):
         ball = "region ball sphere 2 2 2 1.5\nrbc/surface ball type 2 spacing 0.9 mass 1\n" \
                "group ball type 2\ngroup cells type 1"
@@ -153,7 +170,9 @@ class Warnings(unittest.TestCase):
                 ["nothing keeps the 1 cells of fix rbc/membrane mem and the 1 of fix rbc/membrane "
                  "stiff from passing"]),
             "short contact": (dict(TWO, before=CONTACT.format(0.5), last=REPELLED),
-                              ["repel each other from 0.5 fluid spacings on; below 1 "]),
+                              ["repel each other from 0.5 fluid spacings on; below 1 the fluid "
+                               "between them is not resolved: increase R of pair_coeff (variable range "
+                               "before dense.blood), or use a smaller dx"]),
             "thin": (dict(membrane=SHEAR["membrane"] + " interior 15"),
                      ["fluid spacings thick, and below 2 an inside that is 10 times as viscous as "
                       "the fluid is not resolved: use dx 0.4"]),
@@ -174,6 +193,31 @@ class Warnings(unittest.TestCase):
                 self.assertEqual(len(found), len(cases[name][1]), found)
                 for warning in found:
                     self.assertTrue(any(words in warning for words in cases[name][1]), warning)
+
+    def test_what_looks_like_other_units(self):
+        """Just above and below a capillary number of 10 and an adhesion of 5 shear moduli."""
+        _, _, volume = edges_and_volume("rbc_162.mol")
+        radius, modulus = (0.75 / np.pi * volume)**(1 / 3), 0.005654
+        rates = {number: number * modulus / (1.5 * radius) for number in (9.9, 10.1)}
+        sheared = {number: dict(fluid=PLATES.replace("0.0012", repr(12 * rate)), run="run 0",
+                                timestep="timestep 1e-6")
+                   for number, rate in rates.items()}
+        adhered = {times: dict(TWO, run="run 0", last=REPELLED, before="pair_style rbc/jkr 3\n"
+                               f"pair_coeff * * adhesive {200 * times * modulus!r} "
+                               f"{times * modulus!r} 1.3")
+                   for times in (4.9, 5.1)}
+        cases = {**sheared, **adhered}
+        results = in_parallel(lambda name: run(scene(**cases[name])), [(name,) for name in cases])
+        found = {name: warnings(result) for name, result in zip(cases, results)}
+        self.assertEqual([len(found[name]) for name in cases], [0, 1, 0, 1], found)
+        self.assertIn("the capillary number of the cells of fix rbc/membrane mem is 10.1, and "
+                      "above 10 they are drawn to several times their length: check the units of "
+                      f"the shear rate {rates[10.1]:.3g} (in units micro it is per us: 50 /s is "
+                      "50e-6)", found[10.1][0])
+        self.assertIn(f"the adhesion {5.1 * modulus:.3g} of the cells of fix rbc/membrane mem is "
+                      "5.1 times their shear modulus, and above 5 it tears at their membranes: "
+                      "check its units (in units micro it is in mJ/m^2: 0.2 uJ/m^2 is 2e-4)",
+                      found[5.1][0])
 
     def test_cells_that_begin_at_a_plate(self):
         lowest = -read_template(POTENTIALS / "rbc_162.mol")[0][:, 2].min()

@@ -15,6 +15,9 @@ class CellContact {
   /// Gap below which surfaces of cells of two atom types act on each other; 0 if they do not.
   virtual double contact_range(int itype, int jtype) const = 0;
 
+  /// Energy per area by which surfaces of two atom types hold each other; 0 if they do not.
+  virtual double adhesion(int itype, int jtype) const = 0;
+
   /// Vertices of this rank and the surfaces near them at the last evaluation of forces, as near as
   /// the largest range, and as the readers of contacts want. Corners may be ghosts.
   virtual const std::vector<rbc::VertexContact> &near_contacts() const = 0;

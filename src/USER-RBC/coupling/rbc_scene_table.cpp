@@ -15,6 +15,7 @@
 #include "pair.h"
 #include "support/rbc_pair_parts.h"
 #include "support/rbc_version.h"
+#include "update.h"
 #include "utils.h"
 
 #include <algorithm>
@@ -30,6 +31,12 @@ static constexpr double SHORTEST_EDGE = 0.5, LONGEST_EDGE = 1.7;
 // ranges of contact in fluid spacings
 
 static constexpr double SHORTEST_RANGE = 1.0;
+
+// Capillary number, and energy of adhesion per area over the shear modulus. A membrane of modulus G
+// that bears a tension T in one direction is as long as (T / G = 0.5 (l^2 - 1 / l^2)) l = 4.5 and
+// 3.2 at rest times its length: further than the skeleton of a red blood cell can be drawn.
+
+static constexpr double LARGEST_CAPILLARY_NUMBER = 10, LARGEST_ADHESION = 5;
 
 // Thickness of cells in fluid spacings where the viscosity inside over that of the fluid is larger
 // than this ratio.
@@ -67,6 +74,7 @@ void SceneTable::print(const DrivenFlow &flow)
   warn_of_edges();
   warn_of_insides(flow);
   warn_of_contacts();
+  warn_of_units();
   warn_of_plates(flow);
 }
 
@@ -119,7 +127,7 @@ void SceneTable::find_types()
   MPI_Allreduce(MPI_IN_PLACE, has.data(), static_cast<int>(has.size()), MPI_INT, MPI_MAX, world);
   for (std::size_t k = 0; k < kinds_.size(); ++k)
     for (int type = 1; type < n; ++type)
-      if (has[k * n + type]) kinds_[k].types.push_back(type);
+      if (has[k * n + type] || kinds_[k].cells < 1) kinds_[k].types.push_back(type);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -128,6 +136,7 @@ void SceneTable::find_contacts()
 {
   apart_.clear();
   for (Kind &kind : kinds_) {
+    kind.adhesion = adhesion(kind);
     bool any = false;
     for (const Kind &other : kinds_) {
       if (&other == &kind ? kind.cells < 2 : kind.cells * other.cells < 1) continue;
@@ -170,6 +179,17 @@ double SceneTable::contact_range(int itype, int jtype) const
   return std::sqrt(force->pair->cutsq[itype][jtype]);
 }
 
+double SceneTable::adhesion(const Kind &kind) const
+{
+  double largest = 0;
+  for (StepPart *part : pair_step_parts(force))
+    if (auto *const contact = dynamic_cast<CellContact *>(part))
+      for (int i : kind.types)
+        for (int j = 1; j <= atom->ntypes; ++j)
+          largest = std::max(largest, contact->adhesion(i, j));
+  return largest;
+}
+
 double SceneTable::cells() const
 {
   double sum = 0;
@@ -186,7 +206,8 @@ void SceneTable::find_repelling()
   for (const Kind &kind : kinds_) of_cells |= kind.membranes->groupbit();
   for (Fix *fix : modify->get_fix_list()) {
     if (!utils::strmatch(fix->style, "^wall/")) continue;
-    int any = 0;
+    constexpr int GROUP_ALL = 1;
+    int any = cells() < 1 && (fix->groupbit & (of_cells | GROUP_ALL));
     for (int i = 0; i < atom->nlocal; ++i)
       if ((atom->mask[i] & fix->groupbit) && (atom->mask[i] & of_cells)) any = 1;
     MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, world);
@@ -251,10 +272,18 @@ std::string SceneTable::table(const DrivenFlow &flow) const
   return text;
 }
 
+std::string SceneTable::rate() const
+{
+  constexpr double PER_SECOND = 1e6;    // of one in units micro
+  const std::string rate = fmt::format("{:.3g}", shear_rate_);
+  if (!utils::strmatch(update->unit_style, "^micro$")) return rate;
+  return rate + fmt::format(" ({:.6g} /s)", PER_SECOND * shear_rate_);
+}
+
 std::string SceneTable::boundaries(const DrivenFlow &flow) const
 {
   std::string text;
-  if (flow.settings().plates) text += fmt::format("Plates: shear rate {:.3g}", shear_rate_);
+  if (flow.settings().plates) text += "Plates: shear rate " + rate();
   if (flow.walls()) text += (text.empty() ? "Walls: " : "; walls: ") + flow.walls()->names();
   if (text.empty()) return text;
   return text + (repelling_.empty() ? "; no fix wall repels cells from them\n"
@@ -307,9 +336,31 @@ void SceneTable::warn_of_contacts() const
     if (range == 0 || range >= SHORTEST_RANGE) continue;
     error->warning(FLERR,
                    "{}: cells of f{} repel each other from {:.3g} fluid spacings on; below {} the "
-                   "fluid between them is not resolved: increase R of pair_coeff, or use a "
-                   "smaller dx",
+                   "fluid between them is not resolved: increase R of pair_coeff (variable range "
+                   "before dense.blood), or use a smaller dx",
                    style_, kind.membranes->style().substr(1), range, SHORTEST_RANGE);
+  }
+}
+
+/// Warns of numbers that look as if they were given in other units.
+void SceneTable::warn_of_units() const
+{
+  const bool micro = utils::strmatch(update->unit_style, "^micro$");
+  for (const Kind &kind : kinds_) {
+    const std::string cells = "the cells of f" + kind.membranes->style().substr(1);
+    if (kind.capillary_number > LARGEST_CAPILLARY_NUMBER)
+      error->warning(FLERR,
+                     "{}: the capillary number of {} is {:.3g}, and above {} they are drawn to "
+                     "several times their length: check the units of the shear rate {:.3g}{}",
+                     style_, cells, kind.capillary_number, LARGEST_CAPILLARY_NUMBER, shear_rate_,
+                     micro ? " (in units micro it is per us: 50 /s is 50e-6)" : "");
+    const double over_modulus = kind.adhesion / kind.membranes->shear_modulus();
+    if (over_modulus > LARGEST_ADHESION)
+      error->warning(FLERR,
+                     "{}: the adhesion {:.3g} of {} is {:.3g} times their shear modulus, and above "
+                     "{} it tears at their membranes: check its units{}",
+                     style_, kind.adhesion, cells, over_modulus, LARGEST_ADHESION,
+                     micro ? " (in units micro it is in mJ/m^2: 0.2 uJ/m^2 is 2e-4)" : "");
   }
 }
 

@@ -30,8 +30,9 @@ class SceneTable : protected Pointers {
   struct Kind {
     CellMembranes *membranes;
     double cells, capillary_number;
-    std::vector<int> types;    ///< of its atoms
+    std::vector<int> types;    ///< of its atoms; all types as long as it has none
     double contact = 0;        ///< shortest range to any cell, 0 if it does not touch some
+    double adhesion = 0;       ///< largest energy per area to any cell
   };
 
   std::string style_, printed_;
@@ -48,6 +49,8 @@ class SceneTable : protected Pointers {
   void find_contacts();
   void find_repelling();
   std::string repelling_pairs() const;
+  double adhesion(const Kind &kind) const;
+  std::string rate() const;
   double plate_distance() const;
   double contact_range(const Kind &one, const Kind &other) const;
   double contact_range(int itype, int jtype) const;
@@ -57,6 +60,7 @@ class SceneTable : protected Pointers {
   void warn_of_edges() const;
   void warn_of_insides(const DrivenFlow &flow) const;
   void warn_of_contacts() const;
+  void warn_of_units() const;
   void warn_of_plates(const DrivenFlow &flow) const;
 };
 
