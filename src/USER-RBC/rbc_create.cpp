@@ -30,9 +30,9 @@ void RBCCreate::command(int narg, char **arg)
 
   const double begin = platform::walltime();
   std::vector<Cell> cells;
-  if (single)
+  if (given_by == "single")
     cells.push_back(place(centre, rotation, "single"));
-  else if (!file.empty())
+  else if (!given_by.empty())
     cells = place_all();
   else
     cells = pack();
@@ -53,22 +53,24 @@ void RBCCreate::parse(int narg, char **arg)
 
   bool placement = false, seeded = false;
   Arguments args(lmp, "rbc/create", narg, arg, 1);
-  const auto place = [&] {
-    if (placement) args.fail("Rbc/create takes only one of single, file, number and hematocrit");
+  const auto place = [&](const std::string &word = "") {
+    if (placement)
+      args.fail("Rbc/create takes only one of single, file, hemocell, number and hematocrit");
     placement = true;
+    given_by = word;
+  };
+  const auto place_by = [&](const std::string &word) {
+    place(word);
+    file = args.text();
   };
   args.read({{"single",
               [&] {
-                place();
-                single = true;
+                place("single");
                 for (int d = 0; d < 3; ++d) centre[d] = args.number();
               }},
              {"rotate", [&] { read_rotation(args); }},
-             {"file",
-              [&] {
-                place();
-                file = args.text();
-              }},
+             {"file", [&] { place_by("file"); }},
+             {"hemocell", [&] { place_by("hemocell"); }},
              {"number",
               [&] {
                 place();
@@ -90,27 +92,37 @@ void RBCCreate::parse(int narg, char **arg)
              {"overlap", [&] { gap = args.positive(); }},
              {"attempts", [&] { attempts = args.whole(1, MAXSMALLINT); }},
              {"velocity", [&] { speed = args.not_negative(); }}});
-  if (!placement) error->all(FLERR, "Rbc/create needs one of single, file, number and hematocrit");
-  const bool given = single || !file.empty();
-  const std::string word = single ? "single" : "file";
-  if (!given && !seeded) error->all(FLERR, "Rbc/create number and hematocrit need a seed");
-  if (given && region) error->all(FLERR, "Rbc/create {} takes no region", word);
-  if (given && kinds.size() > 1) error->all(FLERR, "Rbc/create {} takes no mix", word);
-  if (single && speed > 0) error->all(FLERR, "Rbc/create single takes no velocity");
-  if (!file.empty() && speed > 0 && !seeded)
-    error->all(FLERR, "Rbc/create file with velocity needs a seed");
+  if (!placement)
+    error->all(FLERR, "Rbc/create needs one of single, file, hemocell, number and hematocrit");
+  check_words(seeded);
   if (gap < 0) gap = kinds[0].shape->mean_edge / 10;
   check_images();
-  if (given) return;
+  if (!given_by.empty()) return;
   set_extent();
   set_counts();
+}
+
+/* ----------------------------------------------------------------------
+   which keywords go together
+------------------------------------------------------------------------- */
+
+void RBCCreate::check_words(bool seeded) const
+{
+  const bool given = !given_by.empty();
+  if (!given && !seeded) error->all(FLERR, "Rbc/create number and hematocrit need a seed");
+  if (given && region) error->all(FLERR, "Rbc/create {} takes no region", given_by);
+  if (given && kinds.size() > 1) error->all(FLERR, "Rbc/create {} takes no mix", given_by);
+  if (given_by == "single" && speed > 0) error->all(FLERR, "Rbc/create single takes no velocity");
+  if (given && speed > 0 && !seeded)
+    error->all(FLERR, "Rbc/create {} with velocity needs a seed", given_by);
 }
 
 /* ---------------------------------------------------------------------- */
 
 void RBCCreate::read_rotation(Arguments &args)
 {
-  if (!single) args.fail("Rbc/create rotate belongs to single: other cells are turned at random");
+  if (given_by != "single")
+    args.fail("Rbc/create rotate belongs to single: other cells are turned at random");
   const double angle = args.number();
   Vec3 axis;
   for (int d = 0; d < 3; ++d) axis[d] = args.number();
@@ -268,9 +280,10 @@ RBCCreate::Cell RBCCreate::place(const Vec3 &at, const Eigen::Matrix3d &turned,
 std::vector<RBCCreate::Cell> RBCCreate::place_all()
 {
   std::vector<Cell> cells;
-  for (const CellPlace &at : read_cell_places(lmp, file, "Rbc/create file"))
+  const PlaceForm form = given_by == "hemocell" ? PlaceForm::hemocell : PlaceForm::axis;
+  for (const CellPlace &at : read_cell_places(lmp, file, form, "Rbc/create " + given_by))
     cells.push_back(
-        place(at.origin, at.rotation, fmt::format("file: line {} of {}", at.line, file)));
+        place(at.origin, at.rotation, fmt::format("{}: line {} of {}", given_by, at.line, file)));
   kinds[0].count = static_cast<int>(cells.size());
   return cells;
 }
@@ -307,18 +320,10 @@ std::vector<RBCCreate::Cell> RBCCreate::pack()
   const auto share = [this](const std::vector<double> &mine) { return gather_all(mine, world); };
   rbc::CellPacking packing(box, templates, template_of, gap, seed, {comm->me, comm->nprocs, share});
   packing.avoid(existing_atoms());
-  const RegionEnclosure enclosure(region, domain, -gap / 2);
+  const RegionEnclosure enclosure(region, domain, -gap / 2, RegionEnclosure::PeriodicSides::open);
   if (region) packing.confine(enclosure, lo, length);
 
-  if (!packing.pack(attempts)) {
-    const double fraction = wanted * mean_cell_volume() / volume;
-    error->all(
-        FLERR,
-        "Rbc/create could not pack {} cells without overlap in {} attempts; the densest "
-        "reached is a volume fraction of {:.4g} of {:.4g} wanted; use fewer cells, a smaller "
-        "overlap distance or more attempts",
-        wanted, attempts, fraction * std::pow(packing.size(), 3), fraction);
-  }
+  if (!packing.pack(attempts)) fail_to_pack(packing.size());
   if (comm->me == 0)
     utils::logmesg(lmp, "Packed cells in {} attempts; least distance of surfaces {:.6g}\n",
                    packing.steps_taken(), packing.least_gap());
@@ -327,6 +332,26 @@ std::vector<RBCCreate::Cell> RBCCreate::pack()
   for (std::size_t c = 0; c < kind_of.size(); ++c)
     cells.push_back({kind_of[c], packing.cells()[c].centre, packing.cells()[c].rotation});
   return cells;
+}
+
+/* ----------------------------------------------------------------------
+   cells fit without overlap if they are that small a part of their size; 0: at none that was tried
+------------------------------------------------------------------------- */
+
+void RBCCreate::fail_to_pack(double size) const
+{
+  const double filled = wanted * mean_cell_volume(), box = Vec3(domain->prd).prod();
+  const std::string part = region ? fmt::format("region {}", region->id) : "the box";
+  const std::string reached = size > 0
+                                  ? fmt::format("the densest reached is {:.4g} of {}",
+                                                filled / volume * std::pow(size, 3), part)
+                                  : "there was no room for all of them at any size that was tried";
+  error->all(FLERR,
+             "Rbc/create could not pack {} cells, {:.4g} of {}{}, without overlap in {} attempts; "
+             "{}; use fewer cells, another seed, a smaller overlap distance{} or more attempts",
+             wanted, filled / volume, part,
+             region ? fmt::format(" and {:.4g} of the box", filled / box) : "", attempts, reached,
+             region ? ", a region that ends at INF in periodic directions" : "");
 }
 
 /* ----------------------------------------------------------------------

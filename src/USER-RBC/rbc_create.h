@@ -39,10 +39,10 @@ class RBCCreate : public Command {
 
   std::vector<Kind> kinds;    // that of the template first, then those mixed in
 
-  bool single = false;
+  std::string given_by;    // the keyword that gives places, empty if they are random
   rbc::Vec3 centre = rbc::Vec3::Zero();
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  std::string file;    // of places, empty without
+  std::string file;    // of places
   int wanted = 0;
   double hematocrit = 0;
   class Region *region = nullptr;
@@ -54,12 +54,14 @@ class RBCCreate : public Command {
   double speed = 0;
 
   void parse(int, char **);
+  void check_words(bool seeded) const;
   void read_rotation(class Arguments &);
   void read_region(Arguments &);
   void read_mix(Arguments &);
   Cell place(const rbc::Vec3 &, const Eigen::Matrix3d &, const std::string &what) const;
   std::vector<Cell> place_all();
   std::vector<Cell> pack();
+  [[noreturn]] void fail_to_pack(double size) const;
   std::vector<rbc::Vec3> existing_atoms() const;
   void check_images() const;
   void set_extent();

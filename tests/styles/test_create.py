@@ -1,11 +1,12 @@
 """rbc/create: where cells come to lie, and how they are numbered."""
 
+import re
 import unittest
 from pathlib import Path
 
 import numpy as np
 
-from lammps_case import POTENTIALS, dump_line, make_template, read_template, run, scene
+from lammps_case import POTENTIALS, attempt, dump_line, make_template, read_template, run, scene
 from rbc.surface_distances import least_gap
 
 COLUMNS = "id mol type x y z xu yu zu"
@@ -120,6 +121,42 @@ class FromFile(unittest.TestCase):
             self.assertIn("Created 3 cells of 162 vertices", result.printed)
 
 
+class FromHemoCell(unittest.TestCase):
+    def test_turns_about_x_then_y_then_z(self):
+        """Where a vertex (x, y, z) of a template goes, found by hand: HemoCell's cells lie with
+        their axis along y, and then quarter turns about axes of space follow each other."""
+        x, y, z = POINTS.T
+        turned = {"0 0 0": (x, -z, y), "90 0 0": (x, -y, -z), "0 90 0": (y, -z, -x),
+                  "0 0 90": (z, x, y), "90 90 0": (-z, -y, -x), "90 0 90": (y, x, -z),
+                  "0 90 90": (z, y, -x), "90 90 90": (y, -z, -x), "-90 0 0": (x, y, z),
+                  "-90 180 -90": (y, x, -z)}
+        lines = [str(len(turned))]
+        for n, angles in enumerate(turned):
+            lines.append(f"{5 + 12 * n} {6 + n} {7 - 0.5 * n} {angles}")
+        expected = np.concatenate([np.transpose(points) + (5 + 12 * n, 6 + n, 7 - 0.5 * n)
+                                   for n, points in enumerate(turned.values())])
+        for ranks in (1, 2):
+            result = run(scene(box="region box block 0 130 0 24 0 20", membrane=None, fluid=None,
+                               boundary="boundary p p p", cells="rbc/create rbc hemocell RBC.pos",
+                               ib=None, thermo=None, dump=dump_line(1, columns=COLUMNS)), ranks,
+                         files={"RBC.pos": "\n".join(lines) + "\n"})
+            np.testing.assert_allclose(result.dump().positions(), expected, atol=1e-13)
+            self.assertIn(f"Created {len(turned)} cells of 162 vertices", result.printed)
+
+    def test_any_angles(self):
+        """R = Rz(rz) Ry(ry) Rx(rx), as the tool packCells writes its ellipsoids: from the matrix
+        atan2(R21, R22), -asin(R20), atan2(R10, R00) give back what the file says."""
+        angles = np.array([33.0, -58.0, 171.0])
+        dump = run(scene(box="region box block 0 30 0 24 0 20", membrane=None, fluid=None,
+                         cells="rbc/create rbc hemocell RBC.pos", ib=None, thermo=None,
+                         dump=dump_line(1, columns=COLUMNS)),
+                   files={"RBC.pos": "1\n15 12 10 33 -58 171\n"}).dump()
+        along_y = POINTS @ rotation(90, (1, 0, 0)).T
+        R = np.linalg.lstsq(along_y, dump.positions() - (15, 12, 10), rcond=None)[0].T
+        found = (np.arctan2(R[2, 1], R[2, 2]), -np.arcsin(R[2, 0]), np.arctan2(R[1, 0], R[0, 0]))
+        np.testing.assert_allclose(np.degrees(found), angles, atol=1e-10)
+
+
 class TypeLabels(unittest.TestCase):
     def test_name_types_as_in_create_atoms(self):
         labels = "labelmap atom 1 soft 2 wall 3 stiff\nmass soft 1.0\n"
@@ -230,6 +267,45 @@ class Random(unittest.TestCase):
                                        delta=0.7)
                 self.check_cells(dump, number, mean_edge(POINTS, TRIANGLES) / 10, (True,) * 3)
                 self.assertTrue(inside(dump.positions()))
+
+    def test_faces_on_periodic_sides_are_none(self):
+        """A dense packing in a region that fills the box along its periodic directions: it reaches
+        through them as one that ends at INF, and its cells keep off the other faces alone."""
+        for inf, ends, directions in (("block INF INF INF INF 2 18", "block 0 30 0 24 2 18", 2),
+                                      ("cylinder x 12 10 9.5 INF INF", "cylinder x 12 10 9.5 0 30",
+                                       1)):
+            with self.subTest(ends):
+                dumps = [created(f"region part {region}\nrbc/create rbc hematocrit 0.36 seed 5 "
+                                 "region part", boundary="boundary p p p").dump()
+                         for region in (inf, ends)]
+                number = len(dumps[1]("id")) // 162
+                self.assertEqual(number, len(dumps[0]("id")) // 162)
+                self.check_cells(dumps[1], number, mean_edge(POINTS, TRIANGLES) / 10, (True,) * 3)
+                x = dumps[1].positions()
+                for d, side in list(enumerate(BOX))[:directions]:
+                    wrapped = np.sort(x[:, d] % side)
+                    gaps = np.diff(np.append(wrapped, wrapped[0] + side))
+                    self.assertLess(gaps[-1], mean_edge(POINTS, TRIANGLES) / 10)
+                if directions == 2:
+                    self.assertTrue(((x[:, 2] >= 2) & (x[:, 2] <= 18)).all())
+                else:
+                    self.assertTrue((np.hypot(x[:, 1] - 12, x[:, 2] - 10) <= 9.5).all())
+
+    def test_a_failure_names_what_was_reached(self):
+        """Faces a little before periodic sides are walls, at which dense packings get stuck."""
+        side = "0.01 17.99"
+        failed = attempt(scene(
+            boundary="boundary p p f", box="region box block 0 18 0 18 0 19",
+            cells=f"region off block {side} {side} 0.5 18.5\n"
+                  "rbc/create rbc hematocrit 0.475 seed 1 region off attempts 1000"))
+        number, part, whole, reached = re.search(
+            r"could not pack (\d+) cells, (\S+) of region off and (\S+) of the box, without "
+            r"overlap in 1000 attempts; the densest reached is (\S+) of region off",
+            failed.error).groups()
+        cells = int(number) * volume(POINTS, TRIANGLES)
+        self.assertAlmostEqual(float(part), cells / (17.98**2 * 18), delta=1e-4)
+        self.assertAlmostEqual(float(whole), cells / (18**2 * 19), delta=1e-4)
+        self.assertTrue(0.2 < float(reached) < float(part), failed.error)
 
     def test_a_small_region_of_a_large_box_is_found(self):
         dump = created("region part block 500 510 500 510 5 15\n"

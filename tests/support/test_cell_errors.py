@@ -8,6 +8,12 @@ from lammps_case import POTENTIALS, SHEAR
 MEMBRANE = "fix mem all rbc/membrane rbc "
 CREATE = "rbc/create rbc "
 
+
+def printed(text):
+    """Lines that write f.txt, and the begin of a command that reads it."""
+    return f'print """{text}""" file f.txt\n{CREATE}'
+
+
 # A script that goes wrong before the first step, and words of its message.
 # Lines of the scene are replaced; "last" comes before `run`.
 
@@ -226,7 +232,7 @@ CREATE_ERRORS = {
     "no such template": (dict(cells="rbc/create white single 6 6 6"),
                          ["Molecule template", "white", "rbc/create", "does not exist"]),
     "no placement": (dict(cells=CREATE + "seed 1"),
-                     ["rbc/create", "needs one of single, file, number and hematocrit"]),
+                     ["rbc/create", "needs one of single, file, hemocell, number and hematocrit"]),
     "two placements": (dict(cells=CREATE + "single 6 6 6 number 4 seed 1"),
                        ["rbc/create", "only one of"]),
     "one placement twice": (dict(cells=CREATE + "single 6 6 6 single 5 5 5"),
@@ -267,6 +273,25 @@ CREATE_ERRORS = {
                       ["line 1 of f.txt has x where a number is wanted"]),
     "file of pairs": (dict(cells="print '6 6' file f.txt\n" + CREATE + "file f.txt"),
                       ["line 1 of f.txt has 2 words", "x y z theta nx ny nz"]),
+    "file of one word": (dict(cells=printed("6 6 6\n6") + "file f.txt"),
+                         ["line 2 of f.txt has 1 word; x y z or"]),
+    "file of HemoCell": (
+        dict(cells=printed("1\n6 6 6 0 0 0") + "file f.txt"),
+        ["line 1 of f.txt has 1 number (a HemoCell .pos file begins so: use hemocell"]),
+    "no such .pos": (dict(cells=CREATE + "hemocell none.pos"),
+                     ["rbc/create hemocell: cannot open none.pos", "No such file"]),
+    ".pos without a number": (
+        dict(cells=printed("6 6 6 0 0 0") + "hemocell f.txt"),
+        ["rbc/create hemocell: line 1 of f.txt must hold one number alone"]),
+    ".pos of five": (dict(cells=printed("1\n6 6 6 0 0") + "hemocell f.txt"),
+                     ["rbc/create hemocell: line 2 of f.txt has 5 words; x y z rx ry rz"]),
+    ".pos cut off": (dict(cells=printed("3\n6 6 6 0 0 0") + "hemocell f.txt"),
+                     ["f.txt says in its first line that there are 3 cells, but has places of 1"]),
+    ".pos without cells": (dict(cells=printed("0") + "hemocell f.txt"),
+                           ["rbc/create hemocell: f.txt holds no places of cells"]),
+    ".pos with a region":
+        (dict(cells="region r sphere 6 6 6 5\n" + CREATE + "hemocell none.pos region r"),
+         ["rbc/create hemocell takes no region"]),
     "file without axis": (dict(cells="print '6 6 6 30 0 0 0' file f.txt\n" + CREATE + "file f.txt"),
                           ["line 1 of f.txt has an axis nx ny nz of length 0"]),
     "file outside": (dict(cells="print '6 6 11.9' file f.txt\n" + CREATE + "file f.txt"),
@@ -339,8 +364,15 @@ CREATE_ERRORS = {
     "unknown keyword": (dict(cells=CREATE + "number 1 seed 5 colour red"),
                         ["rbc/create", "keyword", "colour", "single, rotate"]),
     "too dense": (dict(cells=CREATE + "hematocrit 0.7 seed 5 attempts 100"),
-                  ["rbc/create", "could not pack 14 cells", "100 attempts", "densest reached",
-                   "volume fraction", "wanted"]),
+                  ["rbc/create could not pack 14 cells, 0.72", "of the box, without overlap in 100 "
+                   "attempts; the densest reached is 0.", "of the box; use fewer cells, another "
+                   "seed, a smaller overlap distance or more attempts"]),
+    "too dense for a region": (
+        dict(cells="region part block 0 12 0 12 1 11\n" + CREATE +
+             "hematocrit 0.7 seed 5 attempts 100 region part"),
+        ["rbc/create could not pack 11 cells, 0.6", "of region part and 0.5", "of the box, ",
+         "the densest reached is 0.", "of region part; use fewer cells, another seed, a smaller "
+         "overlap distance, a region that ends at INF in periodic directions or more attempts"]),
     "more cells than fill the box": (dict(cells=CREATE + "number 2000000000 seed 5"),
                                      ["rbc/create", "the volume of 2000000000 cells, 1.78",
                                       "e+11, must be below", "box they are packed into, 1728"]),

@@ -9,6 +9,8 @@
 using namespace LAMMPS_NS;
 using rbc::Vec3;
 
+static constexpr double JUST_BEYOND = 1e-6;    // a surface, in longest sides of the box
+
 /* ---------------------------------------------------------------------- */
 
 Vec3 RegionEnclosure::wrapped(Vec3 x) const
@@ -35,12 +37,41 @@ int RegionEnclosure::contacts_outside(const Vec3 &x, double distance) const
   return count;
 }
 
+/* ----------------------------------------------------------------------
+   Tells whether a point inside lies off a face on a periodic side behind which the region goes on.
+   `arm` leads to it from the face.
+------------------------------------------------------------------------- */
+
+bool RegionEnclosure::goes_on(const Vec3 &x, const Vec3 &arm) const
+{
+  if (sides_ == PeriodicSides::closed || arm.isZero(0)) return false;
+  const double beyond = JUST_BEYOND * Vec3(domain_->prd).maxCoeff();
+  return region_contains(wrapped(x - arm - beyond * arm.normalized()));
+}
+
+/* ----------------------------------------------------------------------
+   Returns the contacts of a point inside with the surface within `distance`, as vectors from the
+   surface.
+------------------------------------------------------------------------- */
+
+std::vector<Vec3> RegionEnclosure::contacts_inside(const Vec3 &x, double distance) const
+{
+  const int count = region_->surface(x[0], x[1], x[2], distance);
+  std::vector<Vec3> arms;
+  for (int n = 0; n < count; ++n) {
+    const Region::Contact &contact = region_->contact[n];
+    const Vec3 arm(contact.delx, contact.dely, contact.delz);
+    if (!goes_on(x, arm)) arms.push_back(arm);
+  }
+  return arms;
+}
+
 /* ---------------------------------------------------------------------- */
 
 bool RegionEnclosure::contains(const Vec3 &x) const
 {
   const Vec3 y = wrapped(x);
-  if (region_contains(y)) return offset_ >= 0 || region_->surface(y[0], y[1], y[2], -offset_) == 0;
+  if (region_contains(y)) return offset_ >= 0 || contacts_inside(y, -offset_).empty();
   return offset_ > 0 && contacts_outside(y, offset_) > 0;
 }
 
@@ -54,15 +85,18 @@ Vec3 RegionEnclosure::inward(const Vec3 &x, double distance) const
   const Vec3 y = wrapped(x);
   const bool in = region_contains(y);
   const double reach = std::abs(offset_) + distance;
-  const int count = in ? region_->surface(y[0], y[1], y[2], reach) : contacts_outside(y, reach);
+  std::vector<Vec3> arms;
+  if (in)
+    arms = contacts_inside(y, reach);
+  else
+    for (int n = contacts_outside(y, reach) - 1; n >= 0; --n)
+      arms.emplace_back(region_->contact[n].delx, region_->contact[n].dely,
+                        region_->contact[n].delz);
   double nearest = HUGE_VAL;
-  for (int n = 0; n < count; ++n) nearest = std::min(nearest, region_->contact[n].r);
+  for (const Vec3 &arm : arms) nearest = std::min(nearest, arm.norm());
   Vec3 normal = Vec3::Zero();
-  for (int n = 0; n < count; ++n) {
-    const Region::Contact &contact = region_->contact[n];
-    const Vec3 arm(contact.delx, contact.dely, contact.delz);
-    if (contact.r <= nearest + distance && arm.norm() > 0) normal += arm.normalized();
-  }
+  for (const Vec3 &arm : arms)
+    if (arm.norm() <= nearest + distance && arm.norm() > 0) normal += arm.normalized();
   if (!(normal.norm() > 0)) return Vec3::Zero();
   return (in ? 1 : -1) * normal.normalized();
 }

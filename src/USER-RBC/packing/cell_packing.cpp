@@ -368,8 +368,8 @@ bool CellPacking::pack(int steps)
   const double first_size = size_, margin = margin_;
   while (settle(steps - steps_taken_, true) && margin_ < largest_margin * radius_)
     if (check()) return true;
-  margin_ = margin;
   while (size_ > first_size / 2) {
+    margin_ = margin;
     resize(shrinking * size_);
     while (settle(shrinking_steps, false) && margin_ < largest_margin * radius_)
       if (check()) return false;
