@@ -146,8 +146,10 @@ void FixRBCFluid::check_drivers() const
     const auto *const client = dynamic_cast<FluidClient *>(fix);
     if (!client || !client->drives_flow() || client->fluid_id() != id) continue;
     if (!driver.empty())
-      error->all(FLERR, "Fix rbc/fluid {} cannot be used by both fix rbc/ib {} and {}", id, driver,
-                 fix->id);
+      error->all(FLERR,
+                 "Fix rbc/fluid {} cannot be used by both fix rbc/ib {} and {}: use one fix rbc/ib "
+                 "with a group that holds the atoms of both",
+                 id, driver, fix->id);
     driver = fix->id;
     const auto &cells = flow->settings().cells;
     const double half = 0.5 * *std::min_element(cells.begin(), cells.end());

@@ -148,6 +148,9 @@ std::string FixRBCIB::remedies_for(const std::vector<Flaw> &seen)
   now.finer_spacing = spacing_for_insides();
   now.several_cells = cells > 1;
   now.lacks_contact = now.several_cells && pair_step_parts(force).empty();
+  if (force->pair && !utils::strmatch(force->pair_style, "^zero") &&
+      !utils::strmatch(force->pair_style, "^rbc/"))
+    now.pair_of_atoms = force->pair_style;
   now.timestep = update->dt;
   now.ghost_cutoff = comm->get_comm_cutoff();
   now.skin = neighbor->skin;

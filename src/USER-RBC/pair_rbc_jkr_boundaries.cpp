@@ -50,8 +50,10 @@ void PairRBCJKR::init_boundaries()
   if (given.plates) {
     const DrivenFlow *const flow = find_flow(modify);
     if (!flow || !flow->settings().plates)
-      error->all(FLERR, "Pair rbc/jkr plates yes: there is no fix rbc/fluid with plates; allowed "
-                        "without one: plates no");
+      error->all(FLERR,
+                 "Pair rbc/jkr plates yes: there is no fix rbc/fluid with plates; allowed without "
+                 "one: walls REGION in a vessel (before dense.blood: variable surfaces string "
+                 "\"walls REGION\"), or plates no");
   }
   for (int i = 1; i <= atom->ntypes; ++i)
     if (setflag[i][i] && coefficients->touch(i, i)) return;

@@ -100,6 +100,16 @@ class ThinSubdomains(unittest.TestCase):
         np.testing.assert_allclose(drags, [drags[0]] * 3, rtol=1e-8)
 
 
+class Sizes(unittest.TestCase):
+    def test_grid_made_finer_is_told(self):
+        """22 is 2 times 11: the next number without prime factors above 7 is 24; 21 is one."""
+        box = dict(box="region box block 0 21 0 22 0 22", fluid=BEADS["fluid"].replace("2.0", "1"))
+        self.assertIn("for fast Fourier transforms the grid is made a little finer than dx 1 asks "
+                      f"for: 21 x 24 x 24 cells, spacing 1 {22 / 24:.6g} {22 / 24:.6g}\n",
+                      run(scene(BEADS, **box, run="run 0")).printed)
+        self.assertNotIn("Fourier", run(scene(BEADS, run="run 0")).printed)
+
+
 class TooLittleMemory(unittest.TestCase):
     """A task without memory ends the run of all with an error that says so."""
 

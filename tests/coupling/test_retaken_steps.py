@@ -157,6 +157,16 @@ class Remedies(unittest.TestCase):
         self.assertRegex(full.error, "likeliest first: adapt of fix rbc/ib; a timestep shorter "
                                      "than 200; a finer mesh")
 
+    def test_of_atoms_that_overlap(self):
+        beads = "mass 1 1\ncreate_atoms 1 single 6 6 6\ncreate_atoms 1 single 6 6 6.05"
+        for pair, names_it in (("pair_style lj/cut 2\npair_coeff 1 1 0.1 1", True), (None, False)):
+            push = "fix push all addforce 1e30 0 0" if not names_it else None
+            result = attempt(scene(cells=beads, membrane=None, compute=None, thermo=None,
+                                   before=pair, last=push, timestep="timestep 1", run="run 5"))
+            self.assertRegex(result.error, "likeliest first: .*a timestep shorter than 1")
+            self.assertEqual("; atoms that do not overlap with others at the start (pair_style "
+                             "lj/cut)" in result.error, names_it, result.error)
+
     def test_of_ghosts_that_are_missing(self):
         result = attempt(
             scene(**FAR, before=pull(20), processors="processors 1 2 1", timestep="timestep 1"), 2)

@@ -34,7 +34,8 @@ CONTACT_ERRORS = {
     "plates neither yes nor no": (contact("pair_style rbc/jkr 0.5 plates both"), ["both"]),
     "plates without a fluid":
         (contact("pair_style rbc/jkr 0.5 plates yes", ib=None, fluid=None, thermo=None),
-         ["pair rbc/jkr plates yes", "no fix rbc/fluid with plates", "plates no"]),
+         ["pair rbc/jkr plates yes", "no fix rbc/fluid with plates", "plates no", "walls REGION in "
+          "a vessel (before dense.blood: variable surfaces string \"walls REGION\")"]),
     "plates in a periodic box": (contact("pair_style rbc/jkr 0.5 plates yes",
                                          boundary="boundary p p p",
                                          fluid=SHEAR["fluid"].split(" wall")[0]),

@@ -195,11 +195,11 @@ void Reader::choose_grid()
   if (changed && comm->me == 0)
     utils::logmesg(
         lmp,
-        "Fix rbc/fluid {}: grid of {} x {} x {} cells, spacing {:.6g} {:.6g} {:.6g}: dx {} "
-        "alone would give numbers of cells that are slow to transform\n",
-        id, settings.cells[0], settings.cells[1], settings.cells[2],
+        "Fix rbc/fluid {}: for fast Fourier transforms the grid is made a little finer than dx {} "
+        "asks for: {} x {} x {} cells, spacing {:.6g} {:.6g} {:.6g}\n",
+        id, target_spacing, settings.cells[0], settings.cells[1], settings.cells[2],
         domain->prd[0] / settings.cells[0], domain->prd[1] / settings.cells[1],
-        domain->prd[2] / settings.cells[2], target_spacing);
+        domain->prd[2] / settings.cells[2]);
 }
 
 /* ----------------------------------------------------------------------

@@ -13,6 +13,7 @@ enum class Remedy {
   stages,
   adapt,
   timestep,
+  overlap,
   crease,
   stretch,
   contact,
@@ -30,9 +31,10 @@ std::vector<Remedy> against(Flaw flaw)
   switch (flaw) {
     case Flaw::too_fast:
     case Flaw::unstable:
-      return {Remedy::stages, Remedy::adapt, Remedy::timestep, Remedy::contact, Remedy::grid};
+      return {Remedy::stages,  Remedy::adapt,   Remedy::timestep,
+              Remedy::overlap, Remedy::contact, Remedy::grid};
     case Flaw::not_finite:
-      return {Remedy::stages, Remedy::adapt, Remedy::timestep, Remedy::grid};
+      return {Remedy::stages, Remedy::adapt, Remedy::timestep, Remedy::overlap, Remedy::grid};
     case Flaw::folded:
       return {Remedy::dense, Remedy::crease,   Remedy::stretch, Remedy::contact, Remedy::stages,
               Remedy::adapt, Remedy::timestep, Remedy::mesh,    Remedy::grid};
@@ -66,6 +68,8 @@ bool applies(Remedy remedy, const Situation &now)
       return now.membranes && !now.creases;
     case Remedy::stretch:
       return now.membranes && !now.limits_stretch;
+    case Remedy::overlap:
+      return !now.pair_of_atoms.empty();
     case Remedy::contact:
       return now.lacks_contact;
     case Remedy::mesh:
@@ -89,6 +93,9 @@ std::string text(Remedy remedy, const Situation &now)
       return "adapt of fix rbc/ib";
     case Remedy::timestep:
       return fmt::format("a timestep shorter than {:.4g}", now.timestep);
+    case Remedy::overlap:
+      return fmt::format("atoms that do not overlap with others at the start (pair_style {})",
+                         now.pair_of_atoms);
     case Remedy::crease:
       return "crease of fix rbc/membrane";
     case Remedy::stretch:
