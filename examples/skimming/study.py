@@ -198,7 +198,7 @@ def main():
             run(arguments, share, example_study.runs_folder(arguments) / share)
     results = collected(arguments)
     if not results:
-        parser.error("there are no runs; --steps 700 makes them")
+        parser.error("no run goes beyond --skip; --steps 700 makes such runs")
     report(results)
     numbers = {name: {key: value for key, value in row.items() if np.ndim(value) == 0}
                for name, row in results.items()}
