@@ -171,6 +171,14 @@ class Converge(unittest.TestCase):
         self.assertRegex(printed, r"two settings show none\n  would help: " + advice)
         self.assertRegex(printed, r"below 0.1 %: none\n  would help for v_x: dx: " + advice)
 
+    def test_what_has_no_order_may_be_a_small_part(self):
+        words = "--vary", "dx=0.8,0.6,0.4", "shape=cell_100000,cell_200000"
+        _, printed = self.converge(*words)
+        self.assertIn("shape: order unknown, two settings show none\n  would help: ", printed)
+        self.assertIn("limit 3.00002, from the finest value", printed)
+        _, printed = self.converge("--vary", "dx=0.8,0.6,0.4", "shape=cell_10,cell_20")
+        self.assertNotIn("\nlimit ", printed)
+
     def test_settings_have_folders_that_all_systems_take(self):
         self.converge("--vary", "dx:shape=0.8:cell_100,0.4:cell_200", "rows=50,100")
         self.assertEqual({path.name for path in (self.folder / "out").iterdir() if path.is_dir()},
