@@ -409,7 +409,8 @@ class Errors(BadInput):
     def test_a_group_that_changes(self):
         line = stream_fix(STREAM).replace(
             "fix ib cells", "group moved dynamic all region tube\nfix ib moved")
-        self.refused(attempt(stream(ib=line)), ["group moved of fix rbc/ib ib must not be dynamic"])
+        self.refused(attempt(stream(**EMPTY, ib=line)),
+                     ["group moved of fix rbc/ib ib must not be dynamic"])
 
     def test_before_the_flow_is_known(self):
         first, *others = stream_fix(STREAM).splitlines()
