@@ -396,9 +396,9 @@ def setting(row):
                      for name, word in pairs)
 
 
-FIGURES = (divergence, drag, curved_walls, ports, network, stream, skimming, bending, stretch, relaxation,
-           tank_treading, volume, stiff, capsule_channel, capsule_shear, python, contrast,
-           fahraeus, suspension, slow_blood, ranks, kernels, scaling, membrane, contact,
+FIGURES = (divergence, drag, curved_walls, ports, network, stream, skimming, bending, stretch,
+           relaxation, tank_treading, volume, stiff, capsule_channel, capsule_shear, python,
+           contrast, fahraeus, suspension, slow_blood, ranks, kernels, scaling, membrane, contact,
            couette_start, cost, converge)
 
 

@@ -171,8 +171,8 @@ class Warnings(unittest.TestCase):
                  "stiff from passing"]),
             "short contact": (dict(TWO, before=CONTACT.format(0.5), last=REPELLED),
                               ["repel each other from 0.5 fluid spacings on; below 1 the fluid "
-                               "between them is not resolved: increase R of pair_coeff (variable range "
-                               "before dense.blood), or use a smaller dx"]),
+                               "between them is not resolved: increase R of pair_coeff (variable "
+                               "range before dense.blood), or use a smaller dx"]),
             "thin": (dict(membrane=SHEAR["membrane"] + " interior 15"),
                      ["fluid spacings thick, and below 2 an inside that is 10 times as viscous as "
                       "the fluid is not resolved: use dx 0.4"]),
