@@ -53,7 +53,8 @@ class GapSlip : public StepPart, protected Pointers {
   /// Plates alone cost next to nothing.
   std::vector<Section> sections() override
   {
-    return contact_ ? std::vector<Section>{{"Gaps", &stopwatch_}} : std::vector<Section>{};
+    if (!contact_) return {};
+    return {Section{"Gaps", &stopwatch_}};
   }
   std::size_t bytes() const;
 
