@@ -36,7 +36,6 @@ template <typename T> class Buffer {
   std::size_t size() const { return length_; }
   /// Of its own.
   std::size_t bytes() const { return data_.get_deleter().owned ? length_ * sizeof(T) : 0; }
-  bool empty() const { return length_ == 0; }
   void clear() { std::fill_n(data_.get(), length_, T{}); }
 
  private:

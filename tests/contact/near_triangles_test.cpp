@@ -354,6 +354,7 @@ TEST(HeldPositions, FurthestMoved)
   rbc::HeldPositions held;
   EXPECT_EQ(held.furthest_moved(nullptr), -1);
   held.hold(mesh.vertices[0].data(), static_cast<int>(mesh.vertices.size()));
+  EXPECT_EQ(held.largest_displacement(mesh.vertices[0].data()), 0);
   mesh.vertices[3][0] += 0.1;
   mesh.vertices[5][1] -= 0.2;
   EXPECT_EQ(held.furthest_moved(mesh.vertices[0].data()), 5);

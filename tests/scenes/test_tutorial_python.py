@@ -58,8 +58,8 @@ class Tutorial(unittest.TestCase):
 
     def test_functions_of_the_table_are_there(self):
         table = PAGE.split("What there is")[1].split("Where things are")[0]
-        names = [name for line in table.splitlines() if line.startswith("   * - *")
-                 for name in re.findall(r"\*(\w+)\*", line)]
+        first = re.findall(r"^   \* - (\*.*?)\n     - ", table, re.MULTILINE | re.DOTALL)
+        names = [name for cell in first for name in re.findall(r"\*(\w+)\*", cell)]
         functions = {name for name in rbc.__all__ if name[0].islower()}
         self.assertEqual(set(names), functions - {"read_csv", "series", "cells_of_array"})
 

@@ -30,14 +30,14 @@ class HeldPositions {
       extent = std::max(extent, hi - lo);
     }
     origin_ = {lowest[0], lowest[1], lowest[2]};
-    error_ = std::numeric_limits<float>::epsilon() / 2 * extent;
+    error_ = std::sqrt(3.0) * std::numeric_limits<float>::epsilon() / 2 * extent;
     resize_tightly(held_, size);
     for (std::size_t n = 0; n < size; ++n) held_[n] = static_cast<float>(x[n] - lowest[n % 3]);
   }
 
   int points() const { return static_cast<int>(held_.size() / 3); }
 
-  /// Of a coordinate, at most.
+  /// Of a position along any direction, at most.
   double error() const { return error_; }
 
   PlainVector operator[](int n) const
@@ -48,12 +48,12 @@ class HeldPositions {
 
   PlainVector displacement(const double *x, int n) const { return at(x, n) - (*this)[n]; }
 
-  /// To error().
+  /// Not more than it is, and less by twice error() at most: 0 where nothing has moved.
   double largest_displacement(const double *x) const
   {
     double largest2 = 0;
     for (int n = 0; n < points(); ++n) largest2 = std::max(largest2, squared_displacement(x, n));
-    return std::sqrt(largest2);
+    return std::max(0.0, std::sqrt(largest2) - error_);
   }
 
   /// -1 if there is no point.

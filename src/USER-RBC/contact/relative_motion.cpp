@@ -48,7 +48,7 @@ double RelativeMotion::closer_difference(const double *x, const LinearFlow &flow
 /// be off by twice as much as the position from which it counts.
 double RelativeMotion::error() const
 {
-  return 4 * std::sqrt(3.0) * held_.error();
+  return 4 * held_.error();
 }
 
 /* ----------------------------------------------------------------------
