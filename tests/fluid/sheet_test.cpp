@@ -16,7 +16,8 @@ constexpr KernelKind kernels[] = {KernelKind::peskin4, KernelKind::roma3};
 std::vector<Real3> velocities(const Grid &grid, const Decomposition &decomposition,
                               KernelKind kernel, Points points, MarkerKind kind)
 {
-  ForcedFlow flow(grid, decomposition, width, FlowEquations{});
+  const bool shares_memory = kind == MarkerKind::sheets;    // the other flow has its own
+  ForcedFlow flow(grid, decomposition, width, FlowEquations{}, shares_memory);
   assign(points, grid, decomposition);
   flow.clear_force();
   EXPECT_EQ(flow.spread(points.markers(kernel, kind), points.f(), 1), -1);

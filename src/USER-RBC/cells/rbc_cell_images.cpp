@@ -194,7 +194,7 @@ void CellImages::find_offsets(LocalCells &cells, CellOffsets &offsets)
 
   const auto counts = count_far(cells, boxes_of);
   constexpr double near[9] = {};
-  std::vector<Vec3> of_vertices(size);
+  std::vector<Vec3> of_vertices(size, Vec3::Zero());
   offsets.clear();
   for (std::size_t c = 0; c < local.size(); ++c) {
     for (int v = 0; v < size; ++v) {
