@@ -60,7 +60,7 @@ class Analysis:
         return Error(signed(offset), float(max(richardson.size(offset) + sum(more), sum(bounds))))
 
     def error(self, setting):
-        """Where no order is known there is no limit that a value could be off by a number."""
+        """Where no order is known no limit is, and the distance from it is not a number."""
         error = self.of(setting, self.values[setting] - self.limit)
         return error if self.has_limit else error._replace(offset=float("nan"))
 
@@ -92,13 +92,13 @@ class Analysis:
         return int(np.argmax(bounds))
 
     def noise_of(self, i):
-        """The largest of what is varied, 0 if it hardly matters."""
+        """The largest noise of the settings of one variable, 0 if it hardly matters."""
         line, fit = self.fits[i]
         noise = max(self.noise[setting] for setting in line)
         return noise if noise > MUCH * min(*fit.bounds, max(abs(fit.offsets))) else 0
 
     def remedies(self, i):
-        """What would make the error smaller or better known that comes from one that is varied."""
+        """What would make the error that one variable causes smaller, or better known."""
         line, fit = self.fits.get(i, ((), None))
         if fit is None:
             return ["settings that run to their end"]

@@ -24,8 +24,8 @@ def history(table, column):
 
 
 def common_times(histories):
-    """Times of lines of the run with the fewest, within what all have: in the others least is
-    interpolated."""
+    """The times of the lines of the run that has the fewest, within the time that all runs have. So
+    the least is interpolated in the others."""
     start = max(times[0] for times, _ in histories)
     end = min(times[-1] for times, _ in histories)
     if end <= start:

@@ -212,7 +212,7 @@ void CellImages::find_offsets(LocalCells &cells, CellOffsets &offsets)
 }
 
 /* ----------------------------------------------------------------------
-   what is needed now and then is not kept: it is as much as the atoms themselves take
+   These vectors take as much memory as the atoms themselves, and are needed now and then only.
 ------------------------------------------------------------------------- */
 
 void CellImages::free_memory()

@@ -44,7 +44,7 @@ class CellImages : protected Pointers {
   std::vector<rbc::Vec3> shifts;
   std::vector<char> placed;    ///< whether the shift of a vertex is known
 
-  // while ghosts are told
+  // while ghosts get the positions of their owners
   std::vector<double> numbers;    ///< three for each atom
   std::vector<double *> rows;
 

@@ -391,7 +391,7 @@ template <typename Factor> void CellMembranes::add_volume_gradients(const Factor
 }
 
 /* ----------------------------------------------------------------------
-   at the vertices of this rank; returns their share of the sums
+   Finds the gradient at the vertices of this rank, and returns their share of the sums.
 ------------------------------------------------------------------------- */
 
 CellMembranes::VolumeSums CellMembranes::find_volume_gradient(const LocalCells::Cell &cell,

@@ -52,7 +52,7 @@ class CellOffsets {
     return {&offsets_[begin_[c]], begin_[c + 1] == begin_[c] + 1};
   }
 
-  /// Counts from another origin of a cell from now on.
+  /// Moves the origin from which the offsets of a cell count.
   void subtract(std::size_t c, const rbc::Vec3 &origin)
   {
     for (std::size_t n = begin_[c]; n < begin_[c + 1]; ++n) offsets_[n] -= origin;
