@@ -142,6 +142,18 @@ class Pressures(unittest.TestCase):
         for name, rate in zip(names, (0.7, -0.4, -0.3)):
             self.assertAlmostEqual(held[f"f_{name}[1]"][0], rate, delta=1e-3)
 
+    def test_a_stream_much_faster_than_what_probes(self):
+        """Half of what enters in the middle leaves at each end. The error of the wall, a part of
+        the fastest flow, does not drown the response to the flows that tell it."""
+        ends = tube(*SMALL, wall="fix wall wall rbc/wall flow",
+                    inlet="fix in all rbc/port flow region inlet pressure 0",
+                    outlet="fix out all rbc/port flow region outlet pressure 0\n"
+                    "region middle block 19 29 INF INF INF INF\n"
+                    "fix more all rbc/port flow region middle flow 0.6")
+        last = run(ends).thermo
+        self.assertAlmostEqual(last["f_in[1]"][0], -0.3, delta=0.003)
+        self.assertAlmostEqual(last["f_in[2]"][0], 0, delta=1e-3)
+
 
 CELL = dict(
     units="units micro", style="atom_style molecular", boundary="boundary p p p",

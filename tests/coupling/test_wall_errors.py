@@ -5,7 +5,7 @@ import unittest
 
 import numpy as np
 
-from wall_case import BASE, plane, walls
+from wall_case import BASE, plane, tube, walls
 
 
 class Spacing(unittest.TestCase):
@@ -81,6 +81,12 @@ class Errors(unittest.TestCase):
 
     def test_inertia(self):
         self.check("Fix rbc/wall w needs fix rbc/fluid flow inertia none", drive="inertia unsteady")
+
+    def test_a_response_measured_through_walls_that_leak(self):
+        self.check("Fix rbc/fluid flow: how its vessel responds to a flow cannot be measured, as "
+                   "Fix rbc/wall w reached its maxiter of 1 with a slip of ",
+                   surfaces=[tube(self.BOX, 3.0)], drive="inside tube mean x 1e-3",
+                   before="region tube cylinder x 4 4 3 INF INF", wall="tol 1e-6 maxiter 1")
 
     def test_mean_force_without_walls(self):
         self.check("Fix rbc/fluid mean force needs inertia unsteady or convective, or a fix "

@@ -56,6 +56,27 @@ TEST(LinearControl, FollowsADisturbance)
   EXPECT_GT(worst, 0.9 * 0.02 * 0.02);
 }
 
+/// Of a resistance any flow takes work; the matrix of a rotation gives and takes none.
+TEST(LinearControl, KnowsAResistance)
+{
+  const auto takes_work = [](double first, double second, double across, double back) {
+    LinearControl control;
+    control.probe(2, 0.5);
+    while (control.probing()) {
+      const Numbers &in = control.inputs();
+      control.adjust({first * in[0] + across * in[1], back * in[0] + second * in[1]}, {1, 1});
+    }
+    return control.takes_work();
+  };
+  EXPECT_TRUE(takes_work(2, 3, 1, 1));
+  EXPECT_TRUE(takes_work(2, 3, 2.4, 2.4));     // determinant 0.24
+  EXPECT_FALSE(takes_work(2, 3, 2.5, 2.5));    // -0.25
+  EXPECT_FALSE(takes_work(2, -3, 1, 1));
+  EXPECT_FALSE(takes_work(-2, -3, 0, 0));
+  EXPECT_TRUE(takes_work(1e-9, 1e-9, 1, -1));
+  EXPECT_FALSE(takes_work(0, 0, 1, -1));
+}
+
 TEST(LinearControl, GoesOnFromItsState)
 {
   LinearControl control, other;

@@ -259,6 +259,7 @@ class DrivenFlow : public StepPart, protected Pointers {
   void start_port_control();
   void continue_port_control();
   bool probe_ports();
+  void check_probe() const;
   const std::vector<double> &port_pressures();
   double rate_inside() { return mean_inside()[forcing_.held_direction()]; }
   bool holds_box_mean() const;

@@ -78,8 +78,14 @@ void FlowForcing::restore_control(const State &state)
 void FlowForcing::control()
 {
   const double wanted = held_velocity_.value(lmp);
+  const bool learns = is_measured_ && control_.probing();
   if (is_measured_) control_.adjust(measured_, wanted);
   is_measured_ = false;
+  if (learns && !control_.probing() && !control_.takes_work())
+    error->all(FLERR,
+               "{}: how the mean velocity responds to what drives it was lost in the slip of the "
+               "walls, as it would set free work at step {}: use a smaller tol of fix rbc/wall",
+               style_, update->ntimestep);
   (by_mean_ ? end_.mean : end_.body)[held_direction_] = control_.input();
 }
 

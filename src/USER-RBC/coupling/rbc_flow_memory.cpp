@@ -3,6 +3,7 @@
 
 #include "coupling/rbc_driven_flow.h"
 #include "domain.h"
+#include "error.h"
 #include "math_const.h"
 #include "update.h"
 
@@ -63,8 +64,23 @@ bool DrivenFlow::probe_flow_rate()
     return true;
   }
   if (!forcing_.probing()) return false;
+  check_probe();
   correct_flow_rate();
   return true;
+}
+
+/* ----------------------------------------------------------------------
+   A response that is measured while fluid passes the walls would drive any flow.
+------------------------------------------------------------------------- */
+
+void DrivenFlow::check_probe() const
+{
+  if (!walls_ || walls_->converged()) return;
+  const WallGroup &wall = *walls_->first();
+  error->all(FLERR,
+             "{}: how its vessel responds to a flow cannot be measured, as {} reached its maxiter "
+             "of {} with a slip of {:.3g}: increase maxiter or tol",
+             style_, wall.style(), wall.settings().max_solves, walls_->slip());
 }
 
 /* ---------------------------------------------------------------------- */

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -101,7 +102,6 @@ void FlowPorts::evaluate()
   modify->addstep_compute(update->ntimestep + 1);
 
   if (controls()) control();
-  check_determined();
   if (ports_[rest_]->given == Port::Given::rate) check_rates();
   end_[rest_] -= std::accumulate(end_.begin(), end_.end(), 0.0);
   now_ = end_;
@@ -204,16 +204,27 @@ void FlowPorts::control()
 {
   std::vector<double> wanted = of_controlled(given_);
   for (double &pressure : wanted) pressure *= force->ftm2v;
+  const bool learns = is_measured_ && control_.probing();
   if (is_measured_) control_.adjust(measured_, wanted);
   is_measured_ = false;
   for (std::size_t n = 0; n < wanted.size(); ++n) end_[controlled_[n]] = control_.inputs()[n];
+  check_determined();
+  if (learns && !control_.probing() && !control_.takes_work())
+    error->all(FLERR,
+               "{}: how its pressure responds to a flow was lost in the slip of the walls, as it "
+               "would set free work at step {}: use a smaller tol of fix rbc/wall",
+               ports_[controlled_.front()]->style, update->ntimestep);
 }
 
-void FlowPorts::start_control(double probe)
+void FlowPorts::start_control(double velocity, const fluid::Flow &flow, const FlowInside &inside)
 {
+  if (sources_.empty()) find_sources(flow, inside);
+  double section = std::numeric_limits<double>::max();
+  for (std::size_t n : controlled_)
+    section = std::min(section, std::pow(sources_[n].volume(), 2.0 / 3));
   known_ = true;
   is_measured_ = holding_ = false;
-  control_.probe(static_cast<int>(controlled_.size()) - 1, probe);
+  control_.probe(static_cast<int>(controlled_.size()) - 1, velocity * section);
 }
 
 void FlowPorts::set_measured(const std::vector<double> &pressures)

@@ -50,7 +50,9 @@ class FlowPorts : protected Pointers {
   bool controls() const { return controlled_.size() > 1; }
   bool probing() const { return controls() && control_.probing(); }
   bool knows_response() const { return controls() && known_ && !control_.probing(); }
-  void start_control(double probe);
+
+  /// Probes with this velocity in the narrowest port whose pressure is held. Collective.
+  void start_control(double velocity, const fluid::Flow &flow, const FlowInside &inside);
   void set_measured(const std::vector<double> &pressures);
   void hold_measured(const std::vector<double> &pressures);
   bool is_holding() const { return holding_; }

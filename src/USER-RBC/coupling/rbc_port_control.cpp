@@ -5,7 +5,7 @@
 
 using namespace LAMMPS_NS;
 
-// cells per step of the flow that probes how a vessel responds, as for flow rates
+// cells per step, in a port, of the flow that probes how a vessel responds, as for flow rates
 
 static constexpr double PROBE_COURANT = 0.02;
 
@@ -14,8 +14,7 @@ static constexpr double PROBE_COURANT = 0.02;
 void DrivenFlow::start_port_control()
 {
   const double dt = update->dt > 0 ? update->dt : 1;
-  const double spacing = smallest_spacing();
-  ports_->start_control(PROBE_COURANT * spacing * spacing * spacing / dt);
+  ports_->start_control(PROBE_COURANT * smallest_spacing() / dt, *flow_, inside_);
 }
 
 void DrivenFlow::continue_port_control()
@@ -37,6 +36,7 @@ bool DrivenFlow::probe_ports()
     return true;
   }
   if (!ports_->probing()) return false;
+  check_probe();
   correct_flow_rate();
   return true;
 }

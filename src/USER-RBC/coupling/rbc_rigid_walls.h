@@ -64,6 +64,7 @@ class RigidWalls : public StepPart, protected Pointers {
   // Numbers of the last evaluation; mean_solves() is the mean over the run.
 
   bigint evaluation() const { return evaluations_; }
+  bool converged() const { return outcome_.converged; }
   double slip() const { return outcome_.slip; }
   int last_solves() const { return outcome_.solves; }
   double mean_solves() const;

@@ -52,6 +52,23 @@ LinearControl::Numbers LinearControl::caused() const
   return sum;
 }
 
+/// As many positive pivots as rows: the symmetric part of the responses is positive definite.
+bool LinearControl::takes_work() const
+{
+  const int n = count();
+  Numbers part(response_.size());
+  const auto at = [&](int i, int j) -> double & { return part[i + std::size_t(n) * j]; };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      at(i, j) = response_[i + std::size_t(n) * j] + response_[j + std::size_t(n) * i];
+  for (int k = 0; k < n; ++k) {
+    if (!(at(k, k) > 0)) return false;
+    for (int i = k + 1; i < n; ++i)
+      for (int j = k + 1; j < n; ++j) at(i, j) -= at(i, k) * at(k, j) / at(k, k);
+  }
+  return true;
+}
+
 double LinearControl::effect() const
 {
   double largest = 0;

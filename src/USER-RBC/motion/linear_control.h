@@ -22,6 +22,10 @@ class LinearControl {
   /// wanted ones; the first count + 1 calls of a probe learn disturbance and responses.
   void adjust(const Numbers &measured, const Numbers &wanted);
 
+  /// Whether any inputs and the quantities that they cause have a positive product in sum: so flows
+  /// and pressures have where flow takes work. Call once the responses are known.
+  bool takes_work() const;
+
   /// The largest part of a quantity that the inputs cause.
   double effect() const;
 

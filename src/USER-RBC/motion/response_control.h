@@ -22,6 +22,10 @@ class ResponseControl {
   }
   bool probing() const { return stage_ != Stage::KNOWN; }
 
+  /// Whether the quantity grows with the input: a flow that grows against its force would set free
+  /// work. Call once the response is known.
+  bool takes_work() const { return response_ > 0; }
+
   /// What it knows once it does not probe: input, response and disturbance.
   using State = std::array<double, 3>;
   State state() const { return {input_, response_, disturbance_}; }
