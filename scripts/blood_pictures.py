@@ -88,28 +88,38 @@ def draw_cells(folders, path):
 
 
 def draw_curves(cases, paper, path):
-    """`cases`: {rate in 1/s: measures of study.py}; `paper`: {rate: ((sizes), share)}."""
-    figure, axes = plt.subplot_mosaic([["sizes", "medians"], ["fast", "slow"]], figsize=(11, 7.4),
-                                      layout="constrained")
+    """`cases`: {rate in 1/s: measures of study.py}; `paper`: {rate: ((sizes), share)}. Without
+    medians over the rate where there is one rate."""
+    many = len(cases) > 1
+    panels = [["sizes", "medians"], ["fast", "slow"]] if many else [["sizes", "fast"]]
+    figure, axes = plt.subplot_mosaic(panels, figsize=(11, 3.7 * len(panels)), layout="constrained")
     draw_sizes(axes["sizes"], cases, paper)
-    rates = [float(rate) for rate in cases]
-    axes["medians"].loglog(rates, [case["of_cells"] for case in cases.values()], "o-",
-                           label="aggregate of a cell, median over cells")
-    axes["medians"].loglog(rates, [case["median"] for case in cases.values()], "s--",
-                           label="aggregates of two and more")
-    largest = max(case["of_cells"] for case in cases.values())
-    sizes = 2 ** np.arange(int(np.log2(largest)) + 2)
-    axes["medians"].set(xlabel="shear rate (1/s)", ylabel="median size (cells)",
-                        ylim=(1, sizes[-1]))
-    for axis, places in ((axes["medians"].xaxis, rates), (axes["medians"].yaxis, sizes)):
-        axis.set_ticks([], minor=True)
-        axis.set_ticks(places, [f"{place:g}" for place in places])
-    axes["medians"].legend(frameon=False, fontsize=8)
-    for place, rate in (("fast", max(cases, key=float)), ("slow", min(cases, key=float))):
-        axes[place].plot(*cases[rate]["paths"], lw=1)
-        axes[place].set(xlabel="time (s)", ylabel="height of a cell / D", title=f"{rate} /s")
+    draw_paths(axes["fast"], cases, max(cases, key=float))
+    if many:
+        draw_medians(axes["medians"], cases)
+        draw_paths(axes["slow"], cases, min(cases, key=float))
     figure.savefig(path, dpi=110)
     plt.close(figure)
+
+
+def draw_paths(axes, cases, rate):
+    axes.plot(*cases[rate]["paths"], lw=1)
+    axes.set(xlabel="time (s)", ylabel="height of a cell / D", title=f"{rate} /s")
+
+
+def draw_medians(axes, cases):
+    rates = [float(rate) for rate in cases]
+    axes.loglog(rates, [case["of_cells"] for case in cases.values()], "o-",
+                label="aggregate of a cell, median over cells")
+    axes.loglog(rates, [case["median"] for case in cases.values()], "s--",
+                label="aggregates of two and more")
+    largest = max(case["of_cells"] for case in cases.values())
+    sizes = 2 ** np.arange(int(np.log2(largest)) + 2)
+    axes.set(xlabel="shear rate (1/s)", ylabel="median size (cells)", ylim=(1, sizes[-1]))
+    for axis, places in ((axes.xaxis, rates), (axes.yaxis, sizes)):
+        axis.set_ticks([], minor=True)
+        axis.set_ticks(places, [f"{place:g}" for place in places])
+    axes.legend(frameon=False, fontsize=8)
 
 
 def draw_sizes(axes, cases, paper):
@@ -122,6 +132,6 @@ def draw_sizes(axes, cases, paper):
             (size, _), share = paper[rate]
             axes.plot(np.log2(size) + 0.26 * (n - 1), 100 * share, "*", color=COLORS[n], ms=10,
                       mec="k", label=f"{rate} /s, paper")
-    axes.set_xticks(range(len(edges)), [f"{edge:.0f}" for edge in edges])
+    axes.set_xticks(range(len(edges)), [f"{edge:.0f}" for edge in edges], rotation=45)
     axes.set(xlabel="cells in the aggregate, from", ylabel="aggregates (%)", xlim=(0.4, None))
     axes.legend(frameon=False, fontsize=8)
