@@ -62,7 +62,7 @@ class RowExchange {
   /// The rows of ghosts are added to those of the atoms that they are copies of.
   virtual void add_from_ghosts(AtomRows &rows) = 0;
 
-  /// Rows to work with, which hold nothing between calls of those that use them.
+  /// Rows to work with, for users that work one at a time.
   AtomRows &work(int n) { return work_[n]; }
 
   std::size_t bytes() const { return work_[0].bytes() + work_[1].bytes(); }

@@ -30,7 +30,7 @@ static constexpr int PARTS = 3 * MODES;
 /* ---------------------------------------------------------------------- */
 
 TractionFilter::TractionFilter(LAMMPS *lmp, RowExchange &exchange) :
-    Pointers(lmp), exchange_(exchange), smooth_(exchange.work(0)), next_(exchange.work(1))
+    Pointers(lmp), exchange_(exchange), force_(exchange.work(0)), rough_(exchange.work(1))
 {
 }
 
@@ -71,8 +71,9 @@ void TractionFilter::for_shared_vertices(const Kind &kind, Function function) co
 }
 
 /* ----------------------------------------------------------------------
-   Filters the function whose value is load(kind, v, i) at the vertex v that is atom i. Each result
-   goes to store(kind, v, i, result).
+   Filters the function whose value is load(kind, v, i) at the vertex v that is atom i, called once
+   for each. Each result goes to store(kind, v, i, result). What load() takes from the rows force_
+   of an atom is lost, where ranks share its cell: they hold the function then.
 ------------------------------------------------------------------------- */
 
 template <class Load, class Store> void TractionFilter::filter(Load load, Store store)
@@ -83,15 +84,15 @@ template <class Load, class Store> void TractionFilter::filter(Load load, Store 
   });
   if (!shared) return;
 
-  for (AtomRows *rows : {&smooth_, &next_}) rows->assign(atom->nlocal + atom->nghost);
   for (const Kind &kind : kinds_)
     for_shared_vertices(kind, [&](std::size_t /*c*/, int v, int i) {
-      std::copy_n(load(kind, v, i).data(), 3, smooth_[i]);
+      const Row value = load(kind, v, i);
+      std::copy_n(value.data(), 3, force_[i]);
     });
   filter_shared_cells();
   for (const Kind &kind : kinds_)
     for_shared_vertices(
-        kind, [&](std::size_t /*c*/, int v, int i) { store(kind, v, i, row_of(smooth_[i])); });
+        kind, [&](std::size_t /*c*/, int v, int i) { store(kind, v, i, row_of(force_[i])); });
 }
 
 template <class Load, class Store> void TractionFilter::filter_whole_cells(Load load, Store store)
@@ -134,17 +135,19 @@ void TractionFilter::filter_shared_cells()
     passes = std::max(passes, kind.filter.passes());
   }
   for (int number = 0; number < passes; ++number) {
-    exchange_.send_to_ghosts(smooth_);
+    exchange_.send_to_ghosts(force_);
     for (const Kind &kind : kinds_) {
       if (number >= kind.filter.passes()) continue;
       const auto &cells = kind.membranes->local_cells().cells();
-      for_shared_vertices(kind, [&](std::size_t c, int v, int i) {
-        const auto value = [&](int w) { return row_of(smooth_[cells[c].atom[w]]); };
-        const Row after = kind.filter.pass(number, v, value);
-        std::copy_n(after.data(), 3, next_[i]);
+      after_.clear();
+      for_shared_vertices(kind, [&](std::size_t c, int v, int /*i*/) {
+        const auto value = [&](int w) { return row_of(force_[cells[c].atom[w]]); };
+        after_.push_back(kind.filter.pass(number, v, value));
       });
-      for_shared_vertices(
-          kind, [&](std::size_t /*c*/, int /*v*/, int i) { std::copy_n(next_[i], 3, smooth_[i]); });
+      auto after = after_.begin();
+      for_shared_vertices(kind, [&](std::size_t /*c*/, int /*v*/, int i) {
+        std::copy_n((after++)->data(), 3, force_[i]);
+      });
     }
   }
   for (Kind &kind : kinds_) {
@@ -154,8 +157,8 @@ void TractionFilter::filter_shared_cells()
 }
 
 /* ----------------------------------------------------------------------
-   Takes from smooth_ its linear part, which `parts` becomes: for each cell here and each mode of
-   the filter three numbers.
+   Takes from the function in force_ its linear part, which `parts` becomes: for each cell here and
+   each mode of the filter three numbers.
 ------------------------------------------------------------------------- */
 
 void TractionFilter::take_linear(Kind &kind, std::vector<double> &parts)
@@ -166,7 +169,7 @@ void TractionFilter::take_linear(Kind &kind, std::vector<double> &parts)
     for (int m = 0; m < MODES; ++m)
       for (int d = 0; d < 3; ++d)
         parts[PARTS * c + 3 * m + d] +=
-            kind.filter.area(v) * kind.filter.linear(v)[m] * smooth_[i][d];
+            kind.filter.area(v) * kind.filter.linear(v)[m] * force_[i][d];
   });
   cells.sum_shared(parts, PARTS);
   add_linear(kind, parts, -1);
@@ -177,7 +180,7 @@ void TractionFilter::add_linear(const Kind &kind, const std::vector<double> &par
   for_shared_vertices(kind, [&](std::size_t c, int v, int i) {
     for (int m = 0; m < MODES; ++m)
       for (int d = 0; d < 3; ++d)
-        smooth_[i][d] += factor * kind.filter.linear(v)[m] * parts[PARTS * c + 3 * m + d];
+        force_[i][d] += factor * kind.filter.linear(v)[m] * parts[PARTS * c + 3 * m + d];
   });
 }
 
@@ -186,18 +189,21 @@ void TractionFilter::add_linear(const Kind &kind, const std::vector<double> &par
 const double *TractionFilter::smooth_forces(const double *force, double factor)
 {
   stopwatch_.start();
-  force_.resize(atom->nlocal);
+  force_.resize(atom->nlocal + atom->nghost);
   rough_.resize(atom->nlocal);
   for (int i = 0; i < atom->nlocal; ++i)
     for (int d = 0; d < 3; ++d) force_[i][d] = factor * force[3 * std::size_t(i) + d];
-  const auto traction = [&](const Kind &kind, int v, int i) -> Row {
-    return row_of(force_[i]) / kind.filter.area(v);
-  };
-  filter(traction, [&](const Kind &kind, int v, int i, const Row &smooth) {
-    const Row rough = traction(kind, v, i) - smooth, felt = kind.filter.area(v) * smooth;
-    std::copy_n(rough.data(), 3, rough_[i]);
-    std::copy_n(felt.data(), 3, force_[i]);
-  });
+  filter(
+      [&](const Kind &kind, int v, int i) -> Row {
+        const Row traction = row_of(force_[i]) / kind.filter.area(v);
+        std::copy_n(traction.data(), 3, rough_[i]);
+        return traction;
+      },
+      [&](const Kind &kind, int v, int i, const Row &smooth) {
+        const Row rough = row_of(rough_[i]) - smooth, felt = kind.filter.area(v) * smooth;
+        std::copy_n(rough.data(), 3, rough_[i]);
+        std::copy_n(felt.data(), 3, force_[i]);
+      });
   stopwatch_.stop();
   return force_[0];
 }
@@ -214,6 +220,7 @@ void TractionFilter::leave_out_forces()
 void TractionFilter::smooth_velocities(double *velocity)
 {
   stopwatch_.start();
+  force_.resize(atom->nlocal + atom->nghost);
   filter(
       [&](const Kind & /*kind*/, int /*v*/, int i) -> Row {
         return row_of(velocity + 3 * std::size_t(i)) - slip_ * row_of(rough_[i]);
@@ -230,7 +237,7 @@ void TractionFilter::smooth_velocities(double *velocity)
 std::size_t TractionFilter::bytes() const
 {
   std::size_t bytes =
-      force_.bytes() + rough_.bytes() + (cells_.capacity() + scratch_.capacity()) * sizeof(TwoRows);
+      (cells_.capacity() + scratch_.capacity()) * sizeof(TwoRows) + after_.capacity() * sizeof(Row);
   for (const Kind &kind : kinds_)
     bytes += kind.filter.bytes() + (kind.kept.capacity() + kind.lost.capacity()) * sizeof(double);
   return bytes;

@@ -34,7 +34,8 @@ class TractionFilter : public StepPart, protected Pointers {
   bool acts() const { return !kinds_.empty(); }
 
   /// The forces times `factor` that the fluid feels, three numbers for each of this rank's atoms.
-  /// Valid until the next call. Collective.
+  /// Valid until the next call of any function. Until smooth_velocities() has returned nobody else
+  /// may use the work rows of the exchange. Collective.
   const double *smooth_forces(const double *force, double factor);
 
   /// To be called in place of smooth_forces() where there are no forces: smooth_velocities() then
@@ -63,11 +64,11 @@ class TractionFilter : public StepPart, protected Pointers {
 
   RowExchange &exchange_;
   std::vector<Kind> kinds_;
-  AtomRows force_;
-  AtomRows rough_;              ///< tractions
-  AtomRows &smooth_, &next_;    ///< what is filtered, before and after a pass
+  AtomRows &force_;    ///< that is felt; while cells that ranks share are filtered, the function
+  AtomRows &rough_;    ///< tractions
   std::vector<TwoRows> cells_, scratch_;
-  double slip_ = 0;    ///< SLIP dx / viscosity
+  std::vector<Row> after_;    ///< a pass, of the vertices of cells that ranks share
+  double slip_ = 0;           ///< SLIP dx / viscosity
   rbc::Stopwatch stopwatch_;
 
   template <class Function>
