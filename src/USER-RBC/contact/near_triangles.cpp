@@ -81,7 +81,7 @@ void NearTriangles::rebuild(const double *x)
   find_surface_ranges(bins);
 
   groups_.clear();
-  candidates_.distance.clear();
+  candidates_.distance.clear(reach_);
   candidates_.triangle.clear();
   for (int n = 0; n < static_cast<int>(surfaces_.size()); ++n) {
     if (surfaces_[n] == NO_SURFACE) continue;
@@ -260,7 +260,7 @@ void NearTriangles::add_groups(int point)
         group.distance = found->distance;
         group.nearest = candidates_.count();
       }
-      push_back_tightly(candidates_.distance, found->distance);
+      candidates_.distance.push_back(found->distance);
       push_back_tightly(candidates_.triangle, found->triangle);
     }
     push_back_tightly(groups_, group);
@@ -350,7 +350,7 @@ void NearTriangles::find_nearest(const double *x, double range)
   for (std::size_t g = 0; g < near_.size(); ++g) {
     const Group &group = groups_[near_[g].group];
     const double nearer = std::min(range, std::sqrt(near_[g].distance2));
-    const double far = held_distance(nearer, motion_.around(group.point));
+    const auto far = candidates_.distance.parts(held_distance(nearer, motion_.around(group.point)));
     const int end = end_of(near_[g].group);
     if (others_.size() < std::size_t(count + end - group.begin))
       others_.resize(2 * others_.size() + end - group.begin);
@@ -402,7 +402,7 @@ std::size_t NearTriangles::bytes() const
          surfaces_.capacity() * sizeof(Surface) + motion_.bytes() +
          spheres_.triangle.capacity() * (4 * sizeof(float) + sizeof(Surface) + sizeof(int)) +
          groups_.capacity() * sizeof(Group) + near_.capacity() * sizeof(Near) +
-         others_.capacity() * sizeof(others_[0]) + candidates_.distance.capacity() * sizeof(float) +
+         others_.capacity() * sizeof(others_[0]) + candidates_.distance.bytes() +
          candidates_.triangle.capacity() * sizeof(int) +
          contacts_.capacity() * sizeof(VertexContact);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "contact/number_lists.h"
+#include "contact/packed_distances.h"
 #include "contact/relative_motion.h"
 #include "geometry/plain_vector.h"
 
@@ -85,9 +86,9 @@ class NearTriangles {
     int group;
     double distance2;
   };
-  /// Triangles and their distances when built, or a little less. Kept small: there are many.
+  /// Triangles and their distances when built. Kept small: there are many.
   struct Candidates {
-    std::vector<float> distance;
+    PackedDistances distance;
     std::vector<int> triangle;
 
     int count() const { return static_cast<int>(triangle.size()); }
