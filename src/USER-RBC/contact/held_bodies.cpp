@@ -24,11 +24,15 @@ void HeldBodies::hold(const double *x, const NumberLists &bodies)
     for (int n = begin; n < end; ++n) {
       const PlainVector offset = at(x, bodies.number[n]) - centre;
       largest = std::max(largest, dot(offset, offset));
-      x_[n] = static_cast<float>(offset.x);
-      y_[n] = static_cast<float>(offset.y);
-      z_[n] = static_cast<float>(offset.z);
     }
     radius_[body] = rounded_up(std::sqrt(largest));
+    const double parts = radius_[body] > 0 ? PARTS / radius_[body] : 0;    // of a length of 1
+    for (int n = begin; n < end; ++n) {
+      const PlainVector offset = at(x, bodies.number[n]) - centre;
+      x_[n] = static_cast<Part>(std::lrint(parts * offset.x));
+      y_[n] = static_cast<Part>(std::lrint(parts * offset.y));
+      z_[n] = static_cast<Part>(std::lrint(parts * offset.z));
+    }
     largest_radius_ = std::max(largest_radius_, double(radius_[body]));
     centre_[3 * std::size_t(body)] = centre.x;
     centre_[3 * std::size_t(body) + 1] = centre.y;
@@ -38,8 +42,8 @@ void HeldBodies::hold(const double *x, const NumberLists &bodies)
 
 std::size_t HeldBodies::bytes() const
 {
-  return centre_.capacity() * sizeof(double) +
-         (radius_.capacity() + x_.capacity() + y_.capacity() + z_.capacity()) * sizeof(float);
+  return centre_.capacity() * sizeof(double) + radius_.capacity() * sizeof(float) +
+         (x_.capacity() + y_.capacity() + z_.capacity()) * sizeof(Part);
 }
 
 }    // namespace rbc

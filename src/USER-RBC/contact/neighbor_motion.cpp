@@ -1,5 +1,6 @@
 #include "contact/neighbor_motion.h"
 
+#include "geometry/rounding.h"
 #include "geometry/tight_vector.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
 PlainVector first_place(const HeldBodies &held, int body)
 {
-  return held.centre(body) + held.offset(held.bodies().begin[body]);
+  return held.centre(body) + held.offset(body, held.bodies().begin[body]);
 }
 
 }    // namespace
@@ -91,11 +92,11 @@ bool NeighborMotion::find_extents(const double *x)
       const PlainVector row = flow.row(d);
       const double carried = dot(row, centre);
       const Bounds rest = bounds(0, count, [&](int n) {
-        const PlainVector offset = held_->offset(begin + n);
+        const PlainVector offset = held_->offset(b, begin + n);
         return moved[n] - carried - (row.x * offset.x + row.y * offset.y + row.z * offset.z);
       });
-      body_extents_[b].lo[d] = all.lowest - off;
-      body_extents_[b].hi[d] = all.highest + off;
+      body_extents_[b].lo[d] = rounded_down(all.lowest - off);
+      body_extents_[b].hi[d] = rounded_up(all.highest + off);
       left.lo[d] = rest.lowest - 2 * off;
       left.hi[d] = rest.highest + 2 * off;
     }
@@ -116,7 +117,7 @@ double NeighborMotion::find_displacements(const double *x, int body)
     if (static_cast<int>(moved.size()) < end - begin) moved.resize(end - begin);
   double size = 0;
   for (int n = begin; n < end; ++n) {
-    const PlainVector moved = at(x, held_->bodies().number[n]) - centre - held_->offset(n);
+    const PlainVector moved = at(x, held_->bodies().number[n]) - centre - held_->offset(body, n);
     moved_[0][n - begin] = moved.x;
     moved_[1][n - begin] = moved.y;
     moved_[2][n - begin] = moved.z;
@@ -128,7 +129,8 @@ double NeighborMotion::find_displacements(const double *x, int body)
 std::size_t NeighborMotion::bytes() const
 {
   return 3 * moved_[0].capacity() * sizeof(double) + bin_.capacity() * sizeof(int) +
-         (body_extents_.capacity() + extents_.capacity() + merged_.capacity()) * sizeof(Extent);
+         body_extents_.capacity() * sizeof(BodyExtent) +
+         (extents_.capacity() + merged_.capacity()) * sizeof(Extent);
 }
 
 }    // namespace rbc

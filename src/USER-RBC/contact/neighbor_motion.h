@@ -35,7 +35,7 @@ class NeighborMotion {
   Bounds along(int body, PlainVector line) const
   {
     const double axis[3] = {line.x, line.y, line.z};
-    const Extent &extent = body_extents_[body];
+    const BodyExtent &extent = body_extents_[body];
     Bounds bounds{0, 0};
     for (int d = 0; d < 3; ++d) {
       const double lo = axis[d] * extent.lo[d], hi = axis[d] * extent.hi[d];
@@ -50,11 +50,17 @@ class NeighborMotion {
  private:
   using Extent = DisplacementExtent;
 
+  /// Of one body, in single precision, rounded outward: there are many.
+  struct BodyExtent {
+    float lo[3], hi[3];
+  };
+
   std::optional<SpatialBins> bins_;
   const HeldBodies *held_ = nullptr;
-  std::vector<int> bin_;                                   ///< of each body
-  std::vector<double> moved_[3];                           ///< of the points of a body
-  std::vector<Extent> body_extents_, extents_, merged_;    ///< extents_: of each bin, less flow_
+  std::vector<int> bin_;            ///< of each body
+  std::vector<double> moved_[3];    ///< of the points of a body
+  std::vector<BodyExtent> body_extents_;
+  std::vector<Extent> extents_, merged_;    ///< extents_: of each bin, less flow_
   LinearFlow flow_;
   double strain_ = 0;       ///< norm of the flow, the largest since hold()
   Differences widths_{};    ///< likewise, of what the flow leaves
