@@ -59,7 +59,6 @@ NearSurfaces::NearSurfaces(LAMMPS *lmp, std::string style) :
 void NearSurfaces::init()
 {
   shapes.clear();
-  cells.clear();
   for (CellMembranes *membranes : all_cell_membranes(lmp)) {
     membranes->local_cells().identify();    // the fix itself is initialised later
     const rbc::SurfaceTemplate &surface = membranes->shape();
@@ -99,12 +98,14 @@ void NearSurfaces::check_apart() const
 void NearSurfaces::take_cells()
 {
   cells.clear();
+  place_of_cell.clear();
   bigint before = 0;    // cells of other shapes
   for (std::size_t n = 0; n < shapes.size(); ++n) {
     const LocalCells &local = shapes[n].membranes->local_cells();
     for (const auto &[molecule, cell] : local.known()) {
       const auto number = static_cast<rbc::NearTriangles::Surface>(before + cell.index);
-      cells.insert({molecule, {static_cast<int>(n), cell.first, number}});
+      place_of_cell.insert({molecule, static_cast<int>(cells.size())});
+      cells.push_back({static_cast<int>(n), cell.first, number});
     }
     before += local.count();
   }
@@ -145,13 +146,14 @@ double NearSurfaces::longest_edge() const
 
 /* ---------------------------------------------------------------------- */
 
-const NearSurfaces::Cell *NearSurfaces::cell_of(int i) const
+int NearSurfaces::cell_of(int i) const
 {
-  const auto found = cells.find(atom->molecule[i]);
-  if (found == cells.end()) return nullptr;
-  const Cell &cell = found->second;
+  const auto found = place_of_cell.find(atom->molecule[i]);
+  if (found == place_of_cell.end()) return NO_CELL;
+  const Cell &cell = cells[found->second];
   const tagint vertex = atom->tag[i] - cell.first;    // others may have the same molecule ID
-  return vertex >= 0 && vertex < shapes[cell.shape].surface->vertex_count() ? &cell : nullptr;
+  const int vertices = shapes[cell.shape].surface->vertex_count();
+  return vertex >= 0 && vertex < vertices ? found->second : NO_CELL;
 }
 
 tagint NearSurfaces::cell_of_mixed_type() const
@@ -168,7 +170,7 @@ tagint NearSurfaces::cell_of_mixed_type() const
 
 double NearSurfaces::area(int i) const
 {
-  const Cell &cell = *cell_at[i];
+  const Cell &cell = cells[cell_at[i]];
   return shapes[cell.shape].surface->vertex_area[atom->tag[i] - cell.first];
 }
 
@@ -207,8 +209,8 @@ void NearSurfaces::build(double range, double slack_of_ghosts, double stale)
   surfaces.assign(atom->nlocal, rbc::NearTriangles::NO_SURFACE);
   int points = 0;
   for (int i = 0; i < atom->nlocal; ++i) {
-    if (!cell_at[i]) continue;
-    surfaces[i] = cell_at[i]->number;
+    if (cell_at[i] == NO_CELL) continue;
+    surfaces[i] = cells[cell_at[i]].number;
     points = i + 1;
   }
   const double travel = 2 * slack_of_ghosts;    // back and forth
@@ -230,15 +232,15 @@ void NearSurfaces::collect_triangles(double longest)
   triangle_places.clear();
   const int all = atom->nlocal + atom->nghost;
   for (int i = 0; i < all; ++i) {
-    const Cell *const cell = cell_at[i];
-    if (!cell) continue;
-    const Shape &shape = shapes[cell->shape];
-    for (int t : shape.triangles_by_first_vertex[atom->tag[i] - cell->first]) {
+    if (cell_at[i] == NO_CELL) continue;
+    const Cell &cell = cells[cell_at[i]];
+    const Shape &shape = shapes[cell.shape];
+    for (int t : shape.triangles_by_first_vertex[atom->tag[i] - cell.first]) {
       const auto &corners = shape.surface->triangles[t];
-      const int j = image_near(i, cell->first + corners[1], longest);
-      const int k = image_near(i, cell->first + corners[2], longest);
+      const int j = image_near(i, cell.first + corners[1], longest);
+      const int k = image_near(i, cell.first + corners[2], longest);
       if (j >= 0 && k >= 0 && are_near(j, k, longest)) {
-        rbc::push_back_tightly(triangles, rbc::NearTriangles::Triangle{{i, j, k}, cell->number});
+        rbc::push_back_tightly(triangles, rbc::NearTriangles::Triangle{{i, j, k}, cell.number});
         rbc::push_back_tightly(triangle_places, shape.places[t]);
         if (own_patch > 0) template_triangle.push_back(t);
       } else if (i < atom->nlocal)
@@ -255,13 +257,13 @@ void NearSurfaces::collect_triangles(double longest)
 
 bool NearSurfaces::sees_own(int i, int triangle) const
 {
-  const Cell &cell = *cell_at[i];
+  const Cell &cell = cells[cell_at[i]];
   return !shapes[cell.shape].hidden[atom->tag[i] - cell.first][template_triangle[triangle]];
 }
 
 bool NearSurfaces::fans_see(int first, int second) const
 {
-  const Shape &shape = shapes[cell_at[triangles[first].corner[0]]->shape];
+  const Shape &shape = shapes[cells[cell_at[triangles[first].corner[0]]].shape];
   return shape.fans_see[std::size_t(triangle_places[first].fan) * shape.fans +
                         triangle_places[second].fan] != 0;
 }
@@ -320,6 +322,7 @@ double NearSurfaces::bytes() const
          template_triangle.capacity() * sizeof(int) +
          triangle_places.capacity() * sizeof(rbc::TriangleFans::Place) +
          surfaces.capacity() * sizeof(rbc::NearTriangles::Surface) +
-         cells.size() * sizeof(decltype(cells)::value_type) +
-         cell_at.capacity() * sizeof(const Cell *);
+         cells.capacity() * sizeof(Cell) +
+         place_of_cell.size() * sizeof(decltype(place_of_cell)::value_type) +
+         cell_at.capacity() * sizeof(int);
 }

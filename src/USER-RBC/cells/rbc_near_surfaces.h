@@ -82,7 +82,7 @@ class NearSurfaces : protected Pointers {
   /// way around. Fans are given by a triangle of each. Only where vertices see their own cells.
   bool fans_see(int first, int second) const;
 
-  bool is_vertex(int i) const { return cell_of(i) != nullptr; }
+  bool is_vertex(int i) const { return cell_of(i) != NO_CELL; }
 
   /// Molecule ID of the first cell whose vertices are of more than one atom type, or 0. Collective.
   tagint cell_of_mixed_type() const;
@@ -97,6 +97,7 @@ class NearSurfaces : protected Pointers {
   double bytes() const;
 
  private:
+  static constexpr int NO_CELL = -1;
   struct Cell {
     int shape;
     tagint first;                          ///< atom
@@ -117,8 +118,9 @@ class NearSurfaces : protected Pointers {
   std::string style;
   std::shared_ptr<CollectiveStop> stop;
   std::vector<Shape> shapes;
-  std::unordered_map<tagint, Cell> cells;    ///< that have atoms here, by molecule ID
-  std::vector<const Cell *> cell_at;         ///< at build(), of all atoms here, ghosts too
+  std::vector<Cell> cells;                          ///< that have atoms here
+  std::unordered_map<tagint, int> place_of_cell;    ///< in cells, by molecule ID
+  std::vector<int> cell_at;    ///< place in cells, or NO_CELL; at build(), of all atoms, ghosts too
   rbc::NearTriangles finder;
   std::vector<rbc::NearTriangles::Triangle> triangles;
   std::vector<int> template_triangle;    ///< of each, if vertices see their own cells
@@ -129,7 +131,7 @@ class NearSurfaces : protected Pointers {
   double allowed = 0;                                   ///< displacement of an atom since build()
   bigint build_count = 0;
 
-  const Cell *cell_of(int i) const;
+  int cell_of(int i) const;
   double longest_known_edge(double range, double slack) const;
   void collect_triangles(double longest);
   void check_apart() const;
