@@ -56,12 +56,13 @@ void NearTriangles::build(int points, const Surface *surfaces, int corners, cons
                           double travel, SeesOwn sees_own)
 {
   sees_own_ = std::move(sees_own);
-  surfaces_.assign(surfaces, surfaces + points);
+  points_ = points;
+  surfaces_ = surfaces;
   triangles_ = &triangles;
   reach_ = range + slack;
   slack_ = slack;
   travel_ = travel;
-  around_.fill(corners, next_, [&](const auto &put) {
+  around_.fill(corners, bin_of_, [&](const auto &put) {
     for (std::size_t t = 0; t < triangles.size(); ++t)
       for (int v : triangles[t].corner) put(v, static_cast<int>(t));
   });
@@ -83,7 +84,7 @@ void NearTriangles::rebuild(const double *x)
   groups_.clear();
   candidates_.distance.clear(reach_);
   candidates_.triangle.clear();
-  for (int n = 0; n < static_cast<int>(surfaces_.size()); ++n) {
+  for (int n = 0; n < points_; ++n) {
     if (surfaces_[n] == NO_SURFACE) continue;
     const PlainVector point = at(x, n);
     const Surface unseen = sees_own_ ? NO_SURFACE : surfaces_[n];
@@ -399,7 +400,7 @@ std::size_t NearTriangles::bytes() const
   return integers * sizeof(int) + around_.bytes() + found_.capacity() * sizeof(Found) +
          (in_bin_.capacity() + around_bin_.capacity() + scratch_.capacity()) *
              sizeof(SurfaceRange) +
-         surfaces_.capacity() * sizeof(Surface) + motion_.bytes() +
+         motion_.bytes() +
          spheres_.triangle.capacity() * (4 * sizeof(float) + sizeof(Surface) + sizeof(int)) +
          groups_.capacity() * sizeof(Group) + near_.capacity() * sizeof(Near) +
          others_.capacity() * sizeof(others_[0]) + candidates_.distance.bytes() +

@@ -47,8 +47,8 @@ class NearTriangles {
 
   /// Finds what comes within `range` of each other before anything has moved by travel / 2; where
   /// neighbors have come nearer by more than `slack` contacts() finds it anew. `surfaces[n]` is
-  /// that of point n < points <= corners; `triangles`, which must stay, have their corners among
-  /// the `corners` first positions. Without `sees_own` points see nothing of their own surface.
+  /// that of point n < points <= corners; `triangles` have their corners among the `corners` first
+  /// positions. Both lists must stay. Without `sees_own` points see nothing of their own surface.
   void build(int points, const Surface *surfaces, int corners, const double *x,
              const std::vector<Triangle> &triangles, double range, double slack, double travel,
              SeesOwn sees_own = {});
@@ -125,7 +125,8 @@ class NearTriangles {
   };
 
   double reach_ = 0, slack_ = 0, travel_ = 0;
-  std::vector<Surface> surfaces_;    // of points
+  int points_ = 0;
+  const Surface *surfaces_ = nullptr;    // of points
   const std::vector<Triangle> *triangles_ = nullptr;
   SeesOwn sees_own_;
   NumberLists around_;    // each corner: triangles

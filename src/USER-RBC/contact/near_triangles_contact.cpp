@@ -45,7 +45,8 @@ void NearTriangles::add_contact(const double *x, Group &group)
     const PlainVector out = outward(x, corner, weight, face);
     return (1 / norm(out)) * out;
   };
-  contacts_.push_back({group.point, corner, weight, direction(), inside ? -distance : distance});
+  push_back_tightly(contacts_, VertexContact{group.point, corner, weight, direction(),
+                                             inside ? -distance : distance});
 }
 
 /* ----------------------------------------------------------------------

@@ -22,6 +22,7 @@ void TriangleFans::find(const std::vector<NearTriangles::Triangle> &all, int poi
     fans = std::max(fans, fan_of_[t] + 1);
   }
   collect(all, fans);
+  collect_corners(all, next_);
 }
 
 std::vector<TriangleFans::Place>
@@ -70,6 +71,7 @@ void TriangleFans::join(const std::vector<NearTriangles::Triangle> &all,
     fan_of_[t] = fan >= 0 ? fan : fans++;
   }
   collect(all, fans);
+  collect_corners(all, nearest_);    // which no one needs any more
 }
 
 void TriangleFans::collect(const std::vector<NearTriangles::Triangle> &all, int fans)
@@ -77,7 +79,6 @@ void TriangleFans::collect(const std::vector<NearTriangles::Triangle> &all, int 
   triangles.fill(fans, next_, [&](const auto &put) {
     for (std::size_t t = 0; t < all.size(); ++t) put(fan_of_[t], static_cast<int>(t));
   });
-  collect_corners(all);
 }
 
 /* ----------------------------------------------------------------------
@@ -133,15 +134,20 @@ int TriangleFans::fan_of(const std::vector<NearTriangles::Triangle> &all,
   return nearest_[triangle.corner[0]];
 }
 
-void TriangleFans::collect_corners(const std::vector<NearTriangles::Triangle> &all)
+/* ----------------------------------------------------------------------
+   last_fan: work space, of each corner the last fan that has it
+------------------------------------------------------------------------- */
+
+void TriangleFans::collect_corners(const std::vector<NearTriangles::Triangle> &all,
+                                   std::vector<int> &last_fan)
 {
-  next_.assign(nearest_.size(), -1);    // the last fan that has a corner
+  last_fan.assign(nearest_.size(), -1);
   corners.number.clear();
   corners.begin.assign(1, 0);
   for (int fan = 0; fan < triangles.count(); ++fan) {
     for (int n = triangles.begin[fan]; n < triangles.begin[fan + 1]; ++n)
       for (int v : all[triangles.number[n]].corner)
-        if (std::exchange(next_[v], fan) != fan) push_back_tightly(corners.number, v);
+        if (std::exchange(last_fan[v], fan) != fan) push_back_tightly(corners.number, v);
     while (corners.number.size() % GROUP) {
       const int again = corners.number[corners.begin.back()];
       push_back_tightly(corners.number, again);

@@ -51,7 +51,7 @@ class TriangleFans {
   int fan_of(const std::vector<NearTriangles::Triangle> &all,
              const NearTriangles::Triangle &triangle) const;
   void collect(const std::vector<NearTriangles::Triangle> &all, int fans);
-  void collect_corners(const std::vector<NearTriangles::Triangle> &all);
+  void collect_corners(const std::vector<NearTriangles::Triangle> &all, std::vector<int> &last_fan);
 };
 
 }    // namespace rbc
