@@ -25,6 +25,7 @@ CELLS = dict(create_box="create_box 2 box angle/types 1",
 # LAMMPS's style angle, of each atom: numbers of bonds and of angles, six rows of these without any
 # entry, three numbers and a row for neighbors along bonds. Style template: two numbers.
 MORE = 2 * 4 + 6 * 8 + (3 * 4 + 8) + (4 + 8) - 2 * 4
+HASH = 2 * 12 + 2 * 4    # twice as many entries, of three numbers, and heads of lists
 ROOM = 16384    # atoms for which LAMMPS has room at least
 
 
@@ -46,6 +47,15 @@ class Template(unittest.TestCase):
                 less = (bytes_of_atoms(angle) - bytes_of_atoms(template)) * 324 / (ROOM * ranks)
                 print(f"\n{ranks} ranks: {less:.2f} bytes an atom less")
                 self.assertAlmostEqual(less, MORE, delta=0.1)
+
+    def test_a_hash_finds_the_same_atoms_in_more_memory(self):
+        hashed = {**TEMPLATE, "style": TEMPLATE["style"].replace("array", "hash")}
+        array, table = (run(scene(**{**CELLS, **style}, run="run 20"), 2)
+                        for style in (TEMPLATE, hashed))
+        np.testing.assert_array_equal(array.dump().positions(), table.dump().positions())
+        more = (bytes_of_atoms(table) - bytes_of_atoms(array)) * 324 / (ROOM * 2)
+        print(f"\nhash: {more:.2f} bytes an atom more")
+        self.assertAlmostEqual(more, HASH - 4 * 325 / ROOM, delta=0.1)
 
     def test_goes_on_from_a_restart_file(self):
         begin = scene(**{**CELLS, **TEMPLATE}, run="run 20\nwrite_restart half.restart")
