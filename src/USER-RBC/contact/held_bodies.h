@@ -36,11 +36,14 @@ class HeldBodies {
   double largest_radius() const { return largest_radius_; }
 
   /// Of a point of a body, by its place in the lists, from the centre.
-  PlainVector offset(int body, int place) const
+  PlainVector offset(int body, int place) const { return part(body) * parts(place); }
+
+  /// The same as whole numbers of part(), which is a length.
+  PlainVector parts(int place) const
   {
-    const double part = this->part(body);
-    return {part * x_[place], part * y_[place], part * z_[place]};
+    return {double(x_[place]), double(y_[place]), double(z_[place])};
   }
+  double part(int body) const { return radius_[body] * (1 / PARTS); }
 
   /// By how much a coordinate of it may be off: half a part, and what rounding adds.
   double error(int body) const { return 0.51 * part(body); }
@@ -73,8 +76,6 @@ class HeldBodies {
   std::vector<float> radius_;
   std::vector<Part> x_, y_, z_;
   double largest_radius_ = 0;
-
-  double part(int body) const { return radius_[body] * (1 / PARTS); }
 };
 
 }    // namespace rbc

@@ -89,14 +89,12 @@ bool NeighborMotion::find_extents(const double *x)
     for (int d = 0; d < 3; ++d) {
       const double *const moved = moved_[d].data();
       const Bounds all = bounds(0, count, [&](int n) { return moved[n]; });
-      const PlainVector row = flow.row(d);
-      const double carried = dot(row, centre);
-      const Bounds rest = bounds(0, count, [&](int n) {
-        const PlainVector offset = held_->offset(b, begin + n);
-        return moved[n] - carried - (row.x * offset.x + row.y * offset.y + row.z * offset.z);
-      });
-      body_extents_[b].lo[d] = rounded_down(all.lowest - off);
-      body_extents_[b].hi[d] = rounded_up(all.highest + off);
+      const double carried = dot(flow.row(d), centre);
+      const PlainVector row = held_->part(b) * flow.row(d);
+      const Bounds rest = bounds(
+          0, count, [&](int n) { return moved[n] - carried - dot(row, held_->parts(begin + n)); });
+      body_extents_[b].lo[d] = not_above(all.lowest - off);
+      body_extents_[b].hi[d] = -not_above(-(all.highest + off));
       left.lo[d] = rest.lowest - 2 * off;
       left.hi[d] = rest.highest + 2 * off;
     }
@@ -113,11 +111,12 @@ double NeighborMotion::find_displacements(const double *x, int body)
 {
   const int begin = held_->bodies().begin[body], end = held_->bodies().begin[body + 1];
   const PlainVector centre = held_->centre(body);
+  const double part = held_->part(body);
   for (auto &moved : moved_)
     if (static_cast<int>(moved.size()) < end - begin) moved.resize(end - begin);
   double size = 0;
   for (int n = begin; n < end; ++n) {
-    const PlainVector moved = at(x, held_->bodies().number[n]) - centre - held_->offset(body, n);
+    const PlainVector moved = at(x, held_->bodies().number[n]) - centre - part * held_->parts(n);
     moved_[0][n - begin] = moved.x;
     moved_[1][n - begin] = moved.y;
     moved_[2][n - begin] = moved.z;
