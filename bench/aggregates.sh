@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# What compute rbc/aggregate takes per call, and that it takes nothing while it is not called: aggregates.csv.
+# What compute rbc/aggregate takes per call, and that it takes nothing while it is not called:
+# aggregates.csv.
 #   usage: aggregates.sh --output FOLDER|--update [--cells 512 4096 49152] [--ranks 1 2]
 . "$(dirname "$0")/../scripts/common.sh"
 needs_results "$@"

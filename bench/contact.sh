@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Time of pair rbc/jkr for 512 red cells in contact, per evaluation and per search of near triangles, on one core:
-# contact.csv.
+# Time of pair rbc/jkr for 512 red cells in contact, per evaluation and per search of near
+# triangles, on one core: contact.csv.
 #   usage: contact.sh --output FOLDER|--update
 . "$(dirname "$0")/../scripts/common.sh"
 needs_results "$@"

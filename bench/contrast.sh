@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# What an inside of another viscosity costs in dense blood: solves, iterations and time of a step; contrast.csv.
+# What an inside of another viscosity costs in dense blood: solves, iterations and time of a step;
+# contrast.csv.
 #   usage: contrast.sh --output FOLDER|--update
 . "$(dirname "$0")/../scripts/common.sh"
 needs_results "$@"

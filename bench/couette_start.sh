@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Builds and compares fix rbc/fluid with LAMMPS's fix lb/fluid in start-up of Couette flow, error against run time, on one
-# core: couette_start.csv and couette_start.png. Takes 12 minutes with --repeats 1.
+# Builds and compares fix rbc/fluid with LAMMPS's fix lb/fluid in start-up of Couette flow, error
+# against run time, on one core: couette_start.csv and couette_start.png. Takes 12 minutes with
+# --repeats 1.
 #   usage: couette_start.sh --output FOLDER|--update [--repeats n]
 . "$(dirname "$0")/../scripts/common.sh"
 needs_results "$@"

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Flows along and around curved walls of markers: curved_walls.csv and curved_walls.png (two minutes).
+# Flows along and around curved walls of markers: curved_walls.csv and curved_walls.png (two
+# minutes).
 #   usage: curved_walls.sh --output FOLDER|--update
 . "$(dirname "$0")/../scripts/common.sh"
 needs_results "$@"

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Error against solves of the integrators of fix rbc/ib for a red cell in shear flow: healthy, stiff against area, and
-# with the moduli as printed in Table 2. Writes integrators.csv and integrators.png.
+# Error against solves of the integrators of fix rbc/ib for a red cell in shear flow: healthy, stiff
+# against area, and with the moduli as printed in Table 2. Writes integrators.csv and
+# integrators.png.
 #   usage: integrators.sh --output FOLDER|--update
 . "$(dirname "$0")/../scripts/common.sh"
 needs_results "$@"

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Times the solver's parts on one rank, and on the given number of ranks; prints a table and writes kernels.csv.
+# Times the solver's parts on one rank, and on the given number of ranks; prints a table and writes
+# kernels.csv.
 #   usage: kernels.sh [ranks] --output FOLDER|--update
 . "$(dirname "$0")/../scripts/common.sh"
 needs_results "$@"

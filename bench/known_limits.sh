@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Orders, limits and errors that scripts/converge.py finds in examples of which they are known: known_limits.csv.
+# Orders, limits and errors that scripts/converge.py finds in examples of which they are known:
+# known_limits.csv.
 #   usage: known_limits.sh --output FOLDER|--update [--only case ...]
 . "$(dirname "$0")/../scripts/common.sh"
 needs_results "$@"

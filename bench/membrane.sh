@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Time of the membrane's forces on one core, alone and in runs of LAMMPS; prints a table and writes membrane.csv.
+# Time of the membrane's forces on one core, alone and in runs of LAMMPS; prints a table and writes
+# membrane.csv.
 #   usage: membrane.sh --output FOLDER|--update
 . "$(dirname "$0")/../scripts/common.sh"
 needs_results "$@"

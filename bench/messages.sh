@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Messages and bytes that a rank sends in a solve of dense blood, with as many cells for each rank on
-# 1, 8, 27 and 64 ranks, and what latency and bandwidth of a network make of them on up to 100,000:
-# messages.csv and messages.png.
+# Messages and bytes that a rank sends in a solve of dense blood, with as many cells for each rank
+# on 1, 8, 27 and 64 ranks, and what latency and bandwidth of a network make of them on up to
+# 100,000: messages.csv and messages.png.
 #   usage: messages.sh --output FOLDER|--update [--ranks n ...] [--cells n]
 . "$(dirname "$0")/../scripts/common.sh"
 needs_results "$@"

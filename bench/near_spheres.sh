@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Rigid spheres near a plate and near each other: near_spheres.csv and near_spheres.png (five minutes).
+# Rigid spheres near a plate and near each other: near_spheres.csv and near_spheres.png (five
+# minutes).
 #   usage: near_spheres.sh --output FOLDER|--update
 . "$(dirname "$0")/../scripts/common.sh"
 needs_results "$@"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# How densely and how fast rbc/create packs red cells: run time on 1, 2 and 4 ranks, least gap, directions; packing.csv,
-# packing.png and packing-cells.png.
+# How densely and how fast rbc/create packs red cells: run time on 1, 2 and 4 ranks, least gap,
+# directions; packing.csv, packing.png and packing-cells.png.
 #   usage: packing.sh --output FOLDER|--update [--quick]
 . "$(dirname "$0")/../scripts/common.sh"
 needs_results "$@"

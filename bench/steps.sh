@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# How long the steps of dense blood may be: solves per strain, and errors of viscosity and positions; steps.csv.
+# How long the steps of dense blood may be: solves per strain, and errors of viscosity and
+# positions; steps.csv.
 #   usage: steps.sh --output FOLDER|--update
 . "$(dirname "$0")/../scripts/common.sh"
 needs_results "$@"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Error of the flow against run time on one core, over spacing, time step, scheme and regime: work_precision.csv and
-# work_precision.png.
+# Error of the flow against run time on one core, over spacing, time step, scheme and regime:
+# work_precision.csv and work_precision.png.
 #   usage: work_precision.sh --output FOLDER|--update
 . "$(dirname "$0")/../scripts/common.sh"
 needs_results "$@"

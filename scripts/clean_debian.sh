@@ -1,5 +1,5 @@
-# Shared by the scripts that try things in a new, minimal Debian, which lies below a temporary folder
-# and goes when they end. Sourced after common.sh, as root.
+# Shared by the scripts that try things in a new, minimal Debian, which lies below a temporary
+# folder and goes when they end. Sourced after common.sh, as root.
 [ "$(id -u)" = 0 ] || fail "a new Debian can only be made as root"
 "$ROOT/scripts/dependencies.sh" debootstrap
 

@@ -10,11 +10,12 @@ fail() {
 
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 CACHE=${USER_RBC_CACHE:-${XDG_CACHE_HOME:-${HOME:+$HOME/.cache}}}
-[ -n "$CACHE" ] || fail "HOME is not set: set USER_RBC_CACHE to a folder for LAMMPS and the compiler's cache"
+[ -n "$CACHE" ] ||
+  fail "HOME is not set: set USER_RBC_CACHE to a folder for LAMMPS and the compiler's cache"
 [ -n "${USER_RBC_CACHE:-}" ] || CACHE=$CACHE/user-rbc
 BUILD=${USER_RBC_BUILD:-$ROOT/build}
 JOBS=${USER_RBC_JOBS:-$(nproc)}
-# Debian's own interpreter: the modules come as Debian packages, and another python3 may be on the PATH.
+# Debian's own interpreter, as the modules come as Debian packages: the PATH may have another one.
 PYTHON=/usr/bin/python3
 # What is not in the compiler's cache goes to the compiler, not to its preprocessor before.
 export CCACHE_DIR=$CACHE/ccache CCACHE_DEPEND=1
@@ -24,7 +25,8 @@ export CCACHE_DIR=$CACHE/ccache CCACHE_DEPEND=1
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1
 export OMPI_MCA_hwloc_base_binding_policy=none
-export PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_default_binding_policy=none
+export PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe
+export PRTE_MCA_hwloc_default_binding_policy=none
 export OMP_NUM_THREADS=1
 # MPI looks for graphics cards by way of X server :0 and ends with it; that may be one for pictures.
 export HWLOC_COMPONENTS=-gl

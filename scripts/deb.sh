@@ -9,9 +9,10 @@ export USER_RBC_BUILD=$BUILD-deb
 "$ROOT/scripts/dependencies.sh" file
 "$ROOT/scripts/lammps.sh" "$LAMMPS_VERSION"
 
+debian=$(. /etc/os-release && echo "${VERSION_ID:-sid}")
 say "building USER-RBC with LAMMPS $LAMMPS_VERSION for any processor into $USER_RBC_BUILD"
 cmake -S "$ROOT" -B "$USER_RBC_BUILD" -G Ninja -D LAMMPS_VERSION="$LAMMPS_VERSION" \
-  -D RBC_NATIVE=OFF -D CPACK_DEBIAN_PACKAGE_RELEASE="deb$(. /etc/os-release && echo "${VERSION_ID:-sid}")"
+  -D RBC_NATIVE=OFF -D CPACK_DEBIAN_PACKAGE_RELEASE="deb$debian"
 cmake --build "$USER_RBC_BUILD" -j "$JOBS" --target lmp_rbc rbcplugin
 "$ROOT/scripts/html.sh"
 

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Installs from Debian whatever of the packages below is missing, and of those named as arguments. Does nothing when all
-# are there.
+# Installs from Debian whatever of the packages below is missing, and of those named as arguments.
+# Does nothing when all are there.
 . "$(dirname "$0")/common.sh"
 
 packages=(
-  build-essential cmake ninja-build ccache pkg-config ca-certificates dpkg-dev git debian-archive-keyring
+  build-essential cmake ninja-build ccache pkg-config ca-certificates dpkg-dev git
+  debian-archive-keyring
   libopenmpi-dev openmpi-bin libfftw3-dev libeigen3-dev libgtest-dev libbenchmark-dev
   python3 python3-numpy python3-matplotlib python3-pil python3-vtk9 xvfb
   python3-sphinx python3-sphinx-rtd-theme python3-myst-parser libjs-mathjax
@@ -14,7 +15,8 @@ packages+=("$@")
 
 missing=()
 for package in "${packages[@]}"; do
-  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed' || missing+=("$package")
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed' ||
+    missing+=("$package")
 done
 
 [ ${#missing[@]} -gt 0 ] || exit 0

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Builds the targets of libFuzzer with Debian's clang into build-fuzz/ and runs each for some time. What a target has
-# found lies in build-fuzz/findings/; given as an argument to the target, such a file runs again.
+# Builds the targets of libFuzzer with Debian's clang into build-fuzz/ and runs each for some time.
+# What a target has found lies in build-fuzz/findings/; given as an argument to the target, such a
+# file runs again.
 #   usage: fuzz.sh [seconds of each, 600 by default [stl|template|arguments ...]]
 . "$(dirname "$0")/common.sh"
 . "$(dirname "$0")/lammps_version.sh" 4Feb2025
@@ -20,7 +21,8 @@ failed=0
 for target in "${targets[@]}"; do
   say "fuzzing $target for $seconds s"
   mkdir -p "$BUILD/corpus/$target" "$BUILD/findings"
-  "$BUILD/${target}_fuzz" -seed=1 -max_total_time="$seconds" -timeout=300 -rss_limit_mb=4000 -print_final_stats=1 \
+  "$BUILD/${target}_fuzz" -seed=1 -max_total_time="$seconds" -timeout=300 \
+    -rss_limit_mb=4000 -print_final_stats=1 \
     -dict="$BUILD/seeds/$target.dict" -artifact_prefix="$BUILD/findings/$target-" \
     "$BUILD/corpus/$target" "$BUILD/seeds/$target" || failed=1
 done

@@ -18,7 +18,9 @@ update_lists() {
   [ -z "$scratch" ] || return 0
   scratch=$(mktemp -d)
   mkdir -p "$scratch/lists/partial" "$scratch/cache/archives/partial"
-  echo "deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $uri $LAMMPS_SUITE main" >"$scratch/source.list"
+  cat >"$scratch/source.list" <<LIST
+deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $uri $LAMMPS_SUITE main
+LIST
   cat >"$scratch/apt.conf" <<CONF
 Dir::Etc::SourceList "$scratch/source.list";
 Dir::Etc::SourceParts "-";
@@ -34,8 +36,10 @@ CONF
 is_outdated() {
   local archive
   { update_lists && archive=$(apt-get source -q --tar-only --print-uris lammps |
-    awk '$2 ~ /[.]orig[.]tar[.]/ {print $2}') && [ -n "$archive" ]; } ||
-    { say "the LAMMPS here is taken for the newest: $uri does not say (is there a network?)" && return 1; }
+    awk '$2 ~ /[.]orig[.]tar[.]/ {print $2}') && [ -n "$archive" ]; } || {
+    say "the LAMMPS here is taken for the newest: $uri does not say (is there a network?)"
+    return 1
+  }
   [ "$archive" != "$(cat "$LAMMPS_HOME/archive" 2>/dev/null)" ]
 }
 
@@ -45,7 +49,8 @@ fetch_source() {
   [ -n "$uri" ] || fail "there is no Debian main archive in this machine's apt configuration"
   say "fetching the LAMMPS $LAMMPS_VERSION source from Debian"
   { update_lists && (cd "$scratch" && apt-get source -q --tar-only lammps); } ||
-    fail "the LAMMPS $LAMMPS_VERSION source could not be fetched from $uri (see above): is there a network?"
+    fail "the LAMMPS $LAMMPS_VERSION source could not be fetched from $uri (see above):" \
+      "is there a network?"
   partial=$LAMMPS_HOME/source.partial
   rm -rf "$partial"
   mkdir -p "$partial" || fail "$LAMMPS_HOME cannot be written: set USER_RBC_CACHE to another folder"

@@ -1,5 +1,5 @@
-# Which LAMMPS, with which packages and options, where it is kept and where we build with it. Sourced after
-# common.sh with the version's name.
+# Which LAMMPS, with which packages and options, where it is kept and where we build with it.
+# Sourced after common.sh with the version's name.
 case "$1" in
   4Feb2025) LAMMPS_VERSION=4Feb2025 LAMMPS_SUITE=trixie ;;
   newest) LAMMPS_VERSION=newest LAMMPS_SUITE=sid BUILD=$BUILD-newest ;;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the package of deb.sh in a new, minimal Debian below a temporary folder, runs a cell in
 # shear there and says how long each took. As root.
-#   usage: try_deb.sh [FILE.deb [SUITE]]     the suite that it is for, that of this machine if not given
+#   usage: try_deb.sh [FILE.deb [SUITE]]     the suite that it is for, or else that of this machine
 . "$(dirname "$0")/common.sh"
 
 package=${1:-$(ls -t "$BUILD"-deb/*.deb 2>/dev/null | head -n 1)}

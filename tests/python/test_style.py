@@ -26,7 +26,7 @@ def long_functions(text):
 
 class Style(unittest.TestCase):
     def test_lines_and_files(self):
-        listed = sources(".py", ".cpp", ".h")
+        listed = sources(".py", ".cpp", ".h", ".sh")
         self.assertGreater(len(listed), 300)
         for path in listed:
             with self.subTest(path.relative_to(ROOT)):
