@@ -41,12 +41,13 @@ debian_release() {
   fi
 }
 
-# archive_of <release>: the Debian archive that apt of this machine takes it from.
+# archive_of <release>: the first Debian archive that apt of this machine takes it from. It reads on
+# to the last one, for apt-get fails where nobody does.
 archive_of() {
   apt-get indextargets --format '$(COMPONENT) $(REPO_URI) $(RELEASE) $(CODENAME)' \
     'Created-By: Packages' |
     awk -v name="$1" '{if ($3 == "unstable") $3 = "sid"}
-      $1 == "main" && ($3 == name || $4 == name) {print $2; exit}'
+      $1 == "main" && ($3 == name || $4 == name) && !found++ {print $2}'
 }
 
 debian_archive() { archive_of "$(debian_release)"; }

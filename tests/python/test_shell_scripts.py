@@ -97,6 +97,14 @@ class Machine(unittest.TestCase):
                       printed)
         self.assertIn("is there a network?", printed)
 
+    def test_with_many_archives(self):
+        """The first that fits counts, and apt-get can print all others behind it."""
+        self.tool("apt-get", 'for ((n = 0; n < 20000; ++n)); do printf "main %s/$n trixie\\n" '
+                             f"{ARCHIVE} || exit 100; done")
+        done = run("-c", '. "$0/common.sh"; archive_of trixie', SCRIPTS,
+                   env={"PATH": str(self.folder / "bin"), "USER_RBC_CACHE": str(self.folder)})
+        self.assertEqual((done.stdout, done.returncode), (f"{ARCHIVE}/0\n", 0))
+
     def test_with_an_archive_that_is_cut_off(self):
         self.apt_get("source) echo cut off > lammps_1.orig.tar.gz ;;")
         self.fails("build.sh", USER_RBC_CACHE=str(self.folder / "tmp"))
