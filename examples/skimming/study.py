@@ -134,8 +134,7 @@ def collected(arguments):
             results[f"{other} both"] = both(results[other], results[share])
     for row in results.values():
         for function in (pries_2005, pries_1989):
-            row[function.__name__] = float(function(row["share"], HEMATOCRIT, FEED, DAUGHTER,
-                                                    DAUGHTER))
+            row[function.__name__] = law(function, row["share"])
     return results
 
 
