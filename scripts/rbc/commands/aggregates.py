@@ -1,7 +1,7 @@
 """Sizes of aggregates from `compute rbc/aggregate`: of one run over time, or at several shear rates
 with a histogram by powers of two and the median:
 
-fix sizes   all ave/time 1000 1 1000 c_agg[*] file sizes.dat
+  fix sizes   all ave/time 1000 1 1000 c_agg[*] file sizes.dat
   fix classes all ave/time 1000 1 1000 c_agg[*] mode vector file classes.dat
   %(prog)s --sizes sizes.dat --timestep 2e-6 -o sizes.png
   %(prog)s --case 10 low/classes.dat low/sizes.dat \\

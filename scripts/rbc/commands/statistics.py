@@ -1,6 +1,6 @@
 """Where cells are to each other and where they go, from the array of `compute rbc/cell`:
 
-fix out all ave/time 1000 1 1000 c_cell[*] mode vector file cell.dat
+  fix out all ave/time 1000 1 1000 c_cell[*] mode vector file cell.dat
   %(prog)s cell.dat --box 0 24 0 24 0 24 --boundary p p f --neighbours 4 -o statistics
 
 writes statistics-pairs.dat (radial distribution of the centres and mean |cos| of the angle between
@@ -9,7 +9,7 @@ and statistics.png, and prints the rouleau order: the mean |cos| over pairs of n
 directions at random, 1 for a stack of coins. Neighbours are cells with their centres closer than
 --neighbours and, if the aggregate of each cell is given,
 
-compute molecule all chunk/atom molecule compress yes
+  compute molecule all chunk/atom molecule compress yes
   compute member all reduce/chunk molecule max c_agg
   fix members all ave/time 1000 1 1000 c_member mode vector file member.dat
 
