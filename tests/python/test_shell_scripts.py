@@ -135,6 +135,17 @@ class Machine(unittest.TestCase):
             self.assertEqual("building LAMMPS newest" in printed, fetched, printed)
 
 
+class Syntax(unittest.TestCase):
+    def test_of_all_scripts(self):
+        scripts = [path for folder in ("bench", "scripts")
+                   for path in sorted((SCRIPTS.parent / folder).glob("*.sh"))]
+        self.assertGreater(len(scripts), 30)
+        for script in scripts:
+            with self.subTest(script.name):
+                done = run("-n", script)
+                self.assertEqual((done.stdout, done.returncode), ("", 0))
+
+
 class Benchmarks(unittest.TestCase):
     def test_ask_where_results_go_before_they_build(self):
         scripts = sorted((SCRIPTS.parent / "bench").glob("*.sh"))
