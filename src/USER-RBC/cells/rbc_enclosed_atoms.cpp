@@ -10,6 +10,8 @@
 #include "geometry/solid_angle.h"
 #include "support/rbc_gather.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -48,7 +50,8 @@ double radius_of(const rbc::SurfaceTemplate &shape)
 }
 
 /// Adds to each point's sum the solid angles of the triangles of cells that count here. Each
-/// triangle counts on one rank.
+/// triangle counts on one rank. Around a cell that one rank has all of, points outside of the box
+/// around its vertices are left out: the sum of all triangles would be zero.
 void add_solid_angles(const CellMembranes &membranes, const rbc::PointBins &points,
                       std::vector<double> &sums)
 {
@@ -57,9 +60,13 @@ void add_solid_angles(const CellMembranes &membranes, const rbc::PointBins &poin
   const LocalCells &cells = membranes.local_cells();
   for (const LocalCells::Cell &cell : cells.cells()) {
     cells.gather(cell, x);
+    Eigen::AlignedBox3d around;
+    if (!cell.shared)
+      for (const Vec3 &vertex : x) around.extend(vertex);
     const rbc::CellElements &elements = *cell.elements;
     points.visit(cell.origin, reach, [&](int point, const Vec3 &image) {
       const Vec3 from = image - cell.origin;
+      if (!cell.shared && !around.contains(from)) return;
       for (int t = 0; t < elements.owned_triangles; ++t)
         if (elements.triangle_energy_weight[t] > 0)
           sums[point] +=
