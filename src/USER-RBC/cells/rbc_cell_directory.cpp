@@ -2,7 +2,6 @@
 
 #include "atom.h"
 #include "cells/rbc_cell_changes.h"
-#include "comm.h"
 #include "error.h"
 #include "fmt/format.h"
 #include "support/rbc_first_message.h"
@@ -91,22 +90,14 @@ std::string CellDirectory::flaw_of(const Extent &cell) const
 
 std::vector<CellDirectory::Entry> CellDirectory::find(const std::vector<tagint> &molecules) const
 {
-  struct Asked {
-    tagint molecule;
-    int rank;
-  };
-  std::vector<Asked> asked;
-  asked.reserve(molecules.size());
-  for (tagint molecule : molecules) asked.push_back({molecule, comm->me});
-
   std::vector<Entry> found;
   std::vector<int> ranks;
-  for (const Asked &one : shares_.send(std::move(asked))) {
-    const auto at = std::lower_bound(molecules_.begin(), molecules_.end(), one.molecule);
-    if (at == molecules_.end() || *at != one.molecule) continue;
+  for (const auto &[molecule, rank] : shares_.ask(molecules)) {
+    const auto at = std::lower_bound(molecules_.begin(), molecules_.end(), molecule);
+    if (at == molecules_.end() || *at != molecule) continue;
     const auto n = static_cast<int>(at - molecules_.begin());
-    found.push_back({one.molecule, first_atoms_[n], first_index_ + n});
-    ranks.push_back(one.rank);
+    found.push_back({molecule, first_atoms_[n], first_index_ + n});
+    ranks.push_back(rank);
   }
   return send_elements(lmp, std::move(found), std::move(ranks));
 }

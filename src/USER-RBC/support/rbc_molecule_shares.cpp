@@ -28,40 +28,44 @@ int MoleculeShares::rank_of(tagint molecule) const
   return std::max(0, static_cast<int>(next - lowest_.begin()) - 1);
 }
 
-/* ---------------------------------------------------------------------- */
+std::vector<MoleculeShares::Request> MoleculeShares::ask(const std::vector<tagint> &molecules) const
+{
+  std::vector<Request> requests;
+  requests.reserve(molecules.size());
+  for (tagint molecule : molecules) requests.push_back({molecule, comm->me});
+  return send(std::move(requests));
+}
+
+/* ----------------------------------------------------------------------
+   MPI_Exscan leaves what rank 0 has undefined
+------------------------------------------------------------------------- */
 
 bigint LAMMPS_NS::count_before(LAMMPS *lmp, std::size_t here)
 {
   const auto count = static_cast<bigint>(here);
   bigint before = 0;
   MPI_Exscan(&count, &before, 1, MPI_LMP_BIGINT, MPI_SUM, lmp->world);
-  return lmp->comm->me == 0 ? 0 : before;    // which MPI leaves alone
+  return lmp->comm->me == 0 ? 0 : before;
 }
 
 /* ---------------------------------------------------------------------- */
 
 std::vector<MoleculePlace> LAMMPS_NS::places_in_order(LAMMPS *lmp, std::vector<tagint> molecules)
 {
-  struct Asked {
-    tagint molecule;
-    int rank;
-  };
+  using Request = MoleculeShares::Request;
   std::sort(molecules.begin(), molecules.end());
   MoleculeShares shares(lmp);
   shares.divide(molecules);
-  std::vector<Asked> asked;
-  asked.reserve(molecules.size());
-  for (tagint molecule : molecules) asked.push_back({molecule, lmp->comm->me});
-  asked = shares.send(std::move(asked));
-  std::sort(asked.begin(), asked.end(),
-            [](const Asked &a, const Asked &b) { return a.molecule < b.molecule; });
+  std::vector<Request> requests = shares.ask(molecules);
+  std::sort(requests.begin(), requests.end(),
+            [](const Request &a, const Request &b) { return a.molecule < b.molecule; });
 
-  auto place = static_cast<int>(count_before(lmp, asked.size()));
+  auto place = static_cast<int>(count_before(lmp, requests.size()));
   std::vector<MoleculePlace> places;
   std::vector<int> ranks;
-  for (const Asked &one : asked) {
-    places.push_back({one.molecule, place++});
-    ranks.push_back(one.rank);
+  for (const auto &[molecule, rank] : requests) {
+    places.push_back({molecule, place++});
+    ranks.push_back(rank);
   }
   return send_elements(lmp, std::move(places), std::move(ranks));
 }

@@ -37,6 +37,16 @@ class MoleculeShares : protected Pointers {
 
   int rank_of(tagint molecule) const;
 
+  /// A molecule, and the rank that asks for it.
+  struct Request {
+    tagint molecule;
+    int rank;
+  };
+
+  /// Collective: this rank asks for molecules. Returns the requests of all ranks for molecules
+  /// whose IDs this rank has, in no order.
+  std::vector<Request> ask(const std::vector<tagint> &molecules) const;
+
   /// Collective: sends elements with a member `molecule` to the ranks that have these IDs.
   template <typename Element> std::vector<Element> send(std::vector<Element> elements) const
   {
