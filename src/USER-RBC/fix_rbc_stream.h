@@ -8,7 +8,7 @@ FixStyle(rbc/stream,FixRBCStream);
 #define LMP_FIX_RBC_STREAM_H
 
 #include "cells/rbc_cell_changes.h"
-#include "cells/rbc_region_enclosure.h"
+#include "cells/rbc_common_enclosure.h"
 #include "fix.h"
 #include "lmptype.h"
 #include "packing/cell_placement.h"

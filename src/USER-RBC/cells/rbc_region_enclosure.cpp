@@ -25,16 +25,32 @@ bool RegionEnclosure::region_contains(const Vec3 &x) const
 }
 
 /* ----------------------------------------------------------------------
-   Returns how many contacts a point outside has with the surface within `distance`. LAMMPS finds
-   them from the inside of the inverted region, so `interior` is inverted for the call.
+   Returns the contacts of a point inside with the surface within `distance`, as vectors from the
+   surface.
 ------------------------------------------------------------------------- */
 
-int RegionEnclosure::contacts_outside(const Vec3 &x, double distance) const
+std::vector<Vec3> RegionEnclosure::contacts(const Vec3 &x, double distance) const
+{
+  const int count = region_->surface(x[0], x[1], x[2], distance);
+  std::vector<Vec3> arms;
+  for (int n = 0; n < count; ++n) {
+    const Region::Contact &contact = region_->contact[n];
+    arms.emplace_back(contact.delx, contact.dely, contact.delz);
+  }
+  return arms;
+}
+
+/* ----------------------------------------------------------------------
+   The same of a point outside. LAMMPS finds them from the inside of the inverted region, so
+   `interior` is inverted for the call.
+------------------------------------------------------------------------- */
+
+std::vector<Vec3> RegionEnclosure::contacts_outside(const Vec3 &x, double distance) const
 {
   region_->interior ^= 1;
-  const int count = region_->surface(x[0], x[1], x[2], distance);
+  std::vector<Vec3> arms = contacts(x, distance);
   region_->interior ^= 1;
-  return count;
+  return arms;
 }
 
 /* ----------------------------------------------------------------------
@@ -50,19 +66,15 @@ bool RegionEnclosure::goes_on(const Vec3 &x, const Vec3 &arm) const
 }
 
 /* ----------------------------------------------------------------------
-   Returns the contacts of a point inside with the surface within `distance`, as vectors from the
-   surface.
+   The contacts of a point inside, but for faces behind which the region goes on.
 ------------------------------------------------------------------------- */
 
 std::vector<Vec3> RegionEnclosure::contacts_inside(const Vec3 &x, double distance) const
 {
-  const int count = region_->surface(x[0], x[1], x[2], distance);
-  std::vector<Vec3> arms;
-  for (int n = 0; n < count; ++n) {
-    const Region::Contact &contact = region_->contact[n];
-    const Vec3 arm(contact.delx, contact.dely, contact.delz);
-    if (!goes_on(x, arm)) arms.push_back(arm);
-  }
+  std::vector<Vec3> arms = contacts(x, distance);
+  arms.erase(
+      std::remove_if(arms.begin(), arms.end(), [&](const Vec3 &arm) { return goes_on(x, arm); }),
+      arms.end());
   return arms;
 }
 
@@ -72,7 +84,7 @@ bool RegionEnclosure::contains(const Vec3 &x) const
 {
   const Vec3 y = wrapped(x);
   if (region_contains(y)) return offset_ >= 0 || contacts_inside(y, -offset_).empty();
-  return offset_ > 0 && contacts_outside(y, offset_) > 0;
+  return offset_ > 0 && !contacts_outside(y, offset_).empty();
 }
 
 /* ----------------------------------------------------------------------
@@ -85,13 +97,7 @@ Vec3 RegionEnclosure::inward(const Vec3 &x, double distance) const
   const Vec3 y = wrapped(x);
   const bool in = region_contains(y);
   const double reach = std::abs(offset_) + distance;
-  std::vector<Vec3> arms;
-  if (in)
-    arms = contacts_inside(y, reach);
-  else
-    for (int n = contacts_outside(y, reach) - 1; n >= 0; --n)
-      arms.emplace_back(region_->contact[n].delx, region_->contact[n].dely,
-                        region_->contact[n].delz);
+  const std::vector<Vec3> arms = in ? contacts_inside(y, reach) : contacts_outside(y, reach);
   double nearest = HUGE_VAL;
   for (const Vec3 &arm : arms) nearest = std::min(nearest, arm.norm());
   Vec3 normal = Vec3::Zero();

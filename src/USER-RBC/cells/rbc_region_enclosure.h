@@ -3,7 +3,6 @@
 
 #include "geometry/enclosure.h"
 
-#include <algorithm>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -35,34 +34,9 @@ class RegionEnclosure : public rbc::Enclosure {
   rbc::Vec3 wrapped(rbc::Vec3 x) const;
   bool region_contains(const rbc::Vec3 &x) const;
   bool goes_on(const rbc::Vec3 &x, const rbc::Vec3 &arm) const;
+  std::vector<rbc::Vec3> contacts(const rbc::Vec3 &x, double distance) const;
   std::vector<rbc::Vec3> contacts_inside(const rbc::Vec3 &x, double distance) const;
-  int contacts_outside(const rbc::Vec3 &x, double distance) const;
-};
-
-/// What lies in all of several regions.
-class CommonEnclosure : public rbc::Enclosure {
- public:
-  explicit CommonEnclosure(const RegionEnclosure &first) : parts_{first} {}
-  void add(const RegionEnclosure &part) { parts_.push_back(part); }
-
-  bool contains(const rbc::Vec3 &x) const override
-  {
-    return std::all_of(parts_.begin(), parts_.end(),
-                       [&x](const RegionEnclosure &part) { return part.contains(x); });
-  }
-
-  /// Of the first one that x is near to.
-  rbc::Vec3 inward(const rbc::Vec3 &x, double distance) const override
-  {
-    for (const RegionEnclosure &part : parts_) {
-      const rbc::Vec3 normal = part.inward(x, distance);
-      if (!normal.isZero()) return normal;
-    }
-    return rbc::Vec3::Zero();
-  }
-
- private:
-  std::vector<RegionEnclosure> parts_;
+  std::vector<rbc::Vec3> contacts_outside(const rbc::Vec3 &x, double distance) const;
 };
 
 }    // namespace LAMMPS_NS
