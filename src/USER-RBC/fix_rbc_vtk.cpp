@@ -223,26 +223,25 @@ void FixRBCVTK::write(ComputeRBCAggregate *grouping, const std::string &context)
 }
 
 /* ----------------------------------------------------------------------
-   A cell is in the group with all of its vertices. In a file of its own a rank writes its cells in
-   order; in a single one all are in order of molecule ID.
+   A cell is in the group if its first vertex is: check_whole() has seen that all others are then,
+   too. In a file of its own a rank writes its cells in order; in a single one all are in order of
+   molecule ID.
 ------------------------------------------------------------------------- */
 
 FixRBCVTK::Writers FixRBCVTK::find_writers(CellMembranes &source) const
 {
   LocalCells &local = source.local_cells();
-  std::vector<double> ranks(local.cells().size());
-  std::transform(
-      local.cells().begin(), local.cells().end(), ranks.begin(),
-      [this](const LocalCells::Cell &cell) { return cell.elements->owned[0] ? comm->me : 0; });
-  local.sum_shared(ranks, 1);
-
-  Writers writers{{ranks.begin(), ranks.end()}, {}, {}, 0};
-  for (std::size_t c = 0; c < ranks.size(); ++c) {
+  std::vector<double> counted(local.cells().size());    // ranks from 1 on, 0 for none
+  for (std::size_t c = 0; c < counted.size(); ++c) {
     const LocalCells::Cell &cell = local.cells()[c];
-    const auto &owned = cell.elements->owned;
-    const auto v = std::find(owned.begin(), owned.end(), 1) - owned.begin();
-    if (!(atom->mask[cell.atom[v]] & groupbit)) writers.ranks[c] = -1;
-    if (writers.ranks[c] == comm->me) writers.mine.push_back(&cell);
+    if (cell.elements->owned[0] && (atom->mask[cell.atom[0]] & groupbit)) counted[c] = comm->me + 1;
+  }
+  local.sum_shared(counted, 1);
+
+  Writers writers{};
+  for (std::size_t c = 0; c < counted.size(); ++c) {
+    writers.ranks.push_back(static_cast<int>(counted[c]) - 1);
+    if (writers.ranks[c] == comm->me) writers.mine.push_back(&local.cells()[c]);
   }
   std::sort(writers.mine.begin(), writers.mine.end(),
             [](const auto *a, const auto *b) { return a->index < b->index; });
