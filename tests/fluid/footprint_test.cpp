@@ -89,6 +89,20 @@ TEST(Memory, OfPressureAndResponsesComesWithTheFirstUse)
   });
 }
 
+TEST(Memory, OfSheetsIsThatOfTheModesAndThreePlanes)
+{
+  constexpr int layers = 2;
+  for_each_layout([](const Grid &grid, const Decomposition &decomposition) {
+    const Box box = Halo(grid, decomposition, layers).box();
+    ForcedFlow flow(grid, decomposition, layers, equations(Inertia::none), true);
+    const std::size_t before = flow.bytes();
+    flow.solve();
+    flow.fill_ghosts();
+    flow.interpolate(Points().markers(KernelKind::roma3, MarkerKind::sheets), nullptr);
+    EXPECT_EQ(flow.bytes() - before, 3 * sizeof(double) * box.extent(0) * box.extent(1));
+  });
+}
+
 struct Sent {
   long messages, bytes;
 
