@@ -55,8 +55,8 @@ void LocalCells::ask_for(std::vector<tagint> molecules)
 }
 
 /* ----------------------------------------------------------------------
-   One rank has vertices of all cells, whatever moves. Others ask for cells that are new to them, in
-   messages of which there are none as long as no rank meets one.
+   A single rank has vertices of all cells, whatever moves. Of several, each asks for the cells that
+   are new to it, and nothing is sent as long as no rank meets one.
 ------------------------------------------------------------------------- */
 
 void LocalCells::meet_cells()

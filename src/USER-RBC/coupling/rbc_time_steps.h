@@ -87,8 +87,8 @@ class TimeSteps : protected Pointers {
   std::string acting_;            ///< what acts on the markers in this run
   bool forces_differ_ = false;    ///< from those of the run before
 
-  // Of the present step, three numbers for each marker here: positions and velocities at its start
-  // and at its end, and work space.
+  // Of the present step, three numbers for each marker here: positions and velocities at its start,
+  // and positions at its end.
   rbc::Numbers X_, V_, X_new_;
   double last_dt_ = 0, next_dt_ = 0, local_error_ = 0;
   bool restarted_ = false;    ///< and no run has begun since

@@ -26,7 +26,7 @@ class PeriodicStretch {
     return cell.beside || cell.along < 0 || cell.along >= length_ + patience_;
   }
 
-  /// All cells there are, at a later time.
+  /// All cells there are, at a later time. Those elsewhere may be left out.
   void follow(const std::vector<Cell> &cells);
 
   /// IDs of those that wait for a copy, those first that are furthest along.
