@@ -34,6 +34,7 @@ FixRBCStream::FixRBCStream(LAMMPS *lmp, int narg, char **arg) :
 
   vector_flag = 1;
   size_vector = NUMBERS + OUTLET_NUMBERS * static_cast<int>(outlets.size());
+  if (along >= 0) ++size_vector;
   global_freq = 1;
   extvector = 0;
   nevery = 1;
@@ -105,6 +106,7 @@ void FixRBCStream::init()
   warned = false;
   leavers.clear();
   arrivals.clear();
+  copies.clear();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -184,12 +186,12 @@ void FixRBCStream::check_moved()
 void FixRBCStream::setup(int /*vflag*/)
 {
   ledger->start(rate_through(port), rates_out());
-  if (stretch) follow(centres_here());
 }
 
 void FixRBCStream::end_of_step()
 {
-  ledger->pass(update->dt, rate_through(port), rates_out());
+  const double due = ledger->pass(update->dt, rate_through(port), rates_out());
+  if (stretch) stretch->pass(due);
 }
 
 double FixRBCStream::rate_through(const std::string &name) const
@@ -217,20 +219,24 @@ void FixRBCStream::post_run()
 
 /* ----------------------------------------------------------------------
    1 cells that entered, 2 that left, 3 inside, 4 owed; 5-6 discharge hematocrit in and out, 7-8
-   volume in and out; then of each outlet cells, discharge hematocrit, volume
+   volume in and out; then of each outlet cells, discharge hematocrit, volume; then of a periodic
+   stretch the length of its loop
 ------------------------------------------------------------------------- */
 
 double FixRBCStream::compute_vector(int n)
 {
   const rbc::StreamLedger::Passage &in = ledger->inlet();
   const rbc::StreamLedger::Passage left = ledger->left();
+  if (n == NUMBERS + OUTLET_NUMBERS * static_cast<int>(outlets.size()))
+    return stretch ? stretch->loop() : 0;
   if (n >= NUMBERS) {
     const auto &outlet = ledger->outlet((n - NUMBERS) / OUTLET_NUMBERS);
     const double number[] = {outlet.cells, outlet.hematocrit(), outlet.volume};
     return number[(n - NUMBERS) % OUTLET_NUMBERS];
   }
   CellMembranes *const now = membranes_of_group();    // between runs they may be gone
-  const double inside = now ? static_cast<double>(now->local_cells().count()) : 0;
+  double inside = now ? static_cast<double>(now->local_cells().count()) : 0;
+  if (now && stretch) inside -= static_cast<double>(stretch->before());
   const double number[] = {in.cells,        left.cells,        inside,    ledger->owed(),
                            in.hematocrit(), left.hematocrit(), in.volume, left.volume};
   return number[n];

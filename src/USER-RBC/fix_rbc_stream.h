@@ -46,13 +46,9 @@ class FixRBCStream : public Fix, public CellSource {
   struct Outlet {
     std::string port, region;
   };
-  struct Inside {
-    double along;
-    std::vector<rbc::Vec3> vertices;
-  };
   struct Leaver {
     tagint molecule;
-    int outlet;
+    int outlet;    // -1: a copy that is taken back
   };
 
   std::string style;    // and ID, for messages
@@ -66,16 +62,17 @@ class FixRBCStream : public Fix, public CellSource {
 
   std::optional<rbc::StreamLedger> ledger;
   std::optional<rbc::CellPlacement> placement;
-  std::optional<rbc::PeriodicStretch> stretch;    // known to rank 0
-  std::vector<double> remembered;                 // of it, from a restart file
-  std::optional<CommonEnclosure> feed;            // where they appear
+  std::optional<rbc::PeriodicStretch> stretch;
+  std::vector<double> remembered;         // of it, from a restart file
+  std::optional<CommonEnclosure> feed;    // where they appear
   rbc::Vec3 feed_lo, feed_length;
   double room = 0;                            // cells of this hematocrit in it
   int moved_groupbit = 0;                     // of the fix rbc/ib that moves them
   tagint last_atom = 0, last_molecule = 0;    // highest IDs there have been
   bool warned = false;
-  std::map<tagint, std::vector<rbc::Vec3>> waiting;    // vertices of cells to be copied, on rank 0
-  std::vector<Inside> inside;                          // cells in the periodic stretch, likewise
+
+  std::vector<rbc::PeriodicStretch::Copy> copies;    // the first arrivals, without IDs
+  std::map<tagint, std::vector<rbc::Vec3>> noted;    // shapes of them and their cells, on rank 0
 
   class CellMembranes *membranes = nullptr;        // of the group's cells
   std::vector<Leaver> leavers;                     // of this step
@@ -88,6 +85,8 @@ class FixRBCStream : public Fix, public CellSource {
   void check_moved();
   void find_feed();
   std::vector<rbc::Vec3> feed_points() const;
+  double lead() const;
+  void check_stretch(const std::vector<rbc::Vec3> &points, const std::string &vessel) const;
   class FixRBCPort *find_port(const std::string &) const;
   double rate_through(const std::string &) const;
   std::vector<double> rates_out() const;
@@ -95,27 +94,33 @@ class FixRBCStream : public Fix, public CellSource {
   void read_direction(class Arguments &);
   std::vector<Leaver> find_leavers(const std::vector<rbc::Vec3> &centres) const;
   std::vector<rbc::Vec3> centres_here() const;
-  void follow(const std::vector<rbc::Vec3> &centres);
-  double place_along(const rbc::Vec3 &centre) const;
-  bool is_beside(const rbc::Vec3 &centre) const;
-  double late() const;
   bool is_due() const;
+  double late() const;
   void collect_obstacles();
   void add_arrivals_of_others();
   void add_surfaces(CellMembranes &);
   void add_points();
   rbc::Vec3 near_feed(const rbc::Vec3 &) const;
   std::vector<std::vector<rbc::Vec3>> find_arrivals();
-  void add_copies(std::vector<std::vector<rbc::Vec3>> &found);
-  void note_cell(const struct WholeCell &);
-  bool add_copy(const std::vector<rbc::Vec3> &, double, std::vector<std::vector<rbc::Vec3>> &found);
-  bool add_another(std::vector<std::vector<rbc::Vec3>> &found);
   void add_random(std::vector<std::vector<rbc::Vec3>> &found);
   void share(std::vector<std::vector<rbc::Vec3>> &found) const;
   void warn_of_delay();
   void note_ids();
   void remove_leavers();
   void add_arrivals();
+
+  // of a periodic stretch
+  void follow(const std::vector<rbc::Vec3> &centres);
+  double place_along(const rbc::Vec3 &centre) const;
+  bool is_beside(const rbc::Vec3 &centre) const;
+  bool leads() const { return stretch && !stretch->led().empty(); }
+  bool note_cell(const struct WholeCell &);
+  std::vector<rbc::Vec3> behind(tagint cell, double shift) const;
+  void lead_copies();
+  void move_copies(const std::map<tagint, const std::vector<rbc::Vec3> *> &places);
+  rbc::Vec3 nearest_image(rbc::Vec3) const;
+  void add_copies(std::vector<std::vector<rbc::Vec3>> &found);
+  void note_copies();
 };
 
 }    // namespace LAMMPS_NS

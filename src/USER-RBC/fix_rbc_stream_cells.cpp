@@ -29,18 +29,9 @@ using rbc::Vec3;
 
 static constexpr double LONG_DELAY = 0.5, LEAST_DELAY = 3;
 
-// With a periodic stretch copies may be ahead by about a cell, and those drawn at random come where
-// as much is owed, so that there are few of both.
+// cells owed from which on one appears at random, without a periodic stretch and with it
 
-static constexpr double AHEAD = 1, BEHIND = 1.5;
-
-// places that are tried for a copy along about a diameter
-
-static constexpr int LATER = 40;
-
-// cells of a periodic stretch that are drawn in a step for a copy that is missing
-
-static constexpr int OTHERS = 10;
+static constexpr double DUE = 0.5, BEHIND = 2;
 
 /* ----------------------------------------------------------------------
    Positions are those of the end of the step. Where cells change, neighbors are found anew.
@@ -50,12 +41,18 @@ void FixRBCStream::post_integrate()
 {
   leavers.clear();
   arrivals.clear();
-  if (update->ntimestep % every != 0) return;
-  std::vector<Vec3> centres;
-  if (stretch || !outlets.empty()) centres = centres_here();
-  leavers = find_leavers(centres);
-  if (stretch) follow(centres);
-  if (is_due()) arrivals = find_arrivals();
+  copies.clear();
+  const bool looks = update->ntimestep % every == 0;
+  if (looks) {
+    std::vector<Vec3> centres;
+    if (stretch || !outlets.empty()) centres = centres_here();
+    leavers = find_leavers(centres);
+    if (stretch) follow(centres);
+  }
+  const bool due = looks && is_due();
+  if (due || leads()) collect_obstacles();
+  if (leads()) lead_copies();
+  if (due) arrivals = find_arrivals();
   if (!leavers.empty() || !arrivals.empty()) next_reneighbor = update->ntimestep;
 }
 
@@ -107,52 +104,17 @@ std::vector<FixRBCStream::Leaver> FixRBCStream::find_leavers(const std::vector<V
 }
 
 /* ----------------------------------------------------------------------
-   tells rank 0 where cells are along the periodic stretch
-------------------------------------------------------------------------- */
-
-void FixRBCStream::follow(const std::vector<Vec3> &centres)
-{
-  const LocalCells &local = membranes->local_cells();
-  std::vector<rbc::PeriodicStretch::Cell> cells;
-  for (std::size_t c = 0; c < centres.size(); ++c) {
-    if (!speaks_for(local, c)) continue;
-    const rbc::PeriodicStretch::Cell cell{local.cells()[c].molecule, place_along(centres[c]),
-                                          is_beside(centres[c])};
-    if (!stretch->is_elsewhere(cell)) cells.push_back(cell);
-  }
-  stretch->follow(gather_on_first(cells, world));
-}
-
-double FixRBCStream::place_along(const Vec3 &centre) const
-{
-  const double from = (near_feed(centre) - feed_lo)[along];
-  return upwards ? from : feed_length[along] - from;
-}
-
-bool FixRBCStream::is_beside(const Vec3 &centre) const
-{
-  const Vec3 from = near_feed(centre) - feed_lo;
-  bool beside = false;
-  for (int d = 0; d < 3; ++d)
-    if (d != along) beside = beside || from[d] < 0 || from[d] > feed_length[d];
-  return beside;
-}
-
-/* ----------------------------------------------------------------------
    how many cells are owed when one is drawn at random; whether there is something to do
 ------------------------------------------------------------------------- */
 
 double FixRBCStream::late() const
 {
-  return stretch ? BEHIND : 0.5;
+  return stretch ? BEHIND : DUE;
 }
 
 bool FixRBCStream::is_due() const
 {
-  if (!stretch) return ledger->owed() >= late();
-  int due = ledger->owed() >= late() || !stretch->waiting().empty();
-  MPI_Bcast(&due, 1, MPI_INT, 0, world);
-  return due != 0;
+  return ledger->owed() >= late() || (stretch && !stretch->waiting().empty());
 }
 
 /* ----------------------------------------------------------------------
@@ -171,11 +133,9 @@ Vec3 FixRBCStream::near_feed(const Vec3 &x) const
 void FixRBCStream::collect_obstacles()
 {
   placement->clear();
-  waiting.clear();
-  inside.clear();
+  noted.clear();
   for (CellMembranes *cells : all_cell_membranes(lmp)) add_surfaces(*cells);
   add_arrivals_of_others();
-  add_points();
 }
 
 /* ----------------------------------------------------------------------
@@ -212,23 +172,9 @@ void FixRBCStream::add_surfaces(CellMembranes &others)
   for (WholeCell &cell : whole_cells_on_first(lmp, others.local_cells(), size, centres, wanted)) {
     const Vec3 shift = near_feed(cell.centre) - cell.centre;
     for (Vec3 &vertex : cell.vertices) vertex += shift;
-    if (stretch && &others == membranes) note_cell(cell);
+    if (stretch && &others == membranes && note_cell(cell)) continue;
     placement->avoid_surface({std::move(cell.vertices), &others.shape().triangles});
   }
-}
-
-/* ----------------------------------------------------------------------
-   of which a copy may be made
-------------------------------------------------------------------------- */
-
-void FixRBCStream::note_cell(const WholeCell &cell)
-{
-  const double place = place_along(cell.centre);
-  if (place >= 0 && place < stretch->length() && !is_beside(cell.centre))
-    inside.push_back({place, cell.vertices});
-  const auto &ids = stretch->waiting();
-  if (std::find(ids.begin(), ids.end(), cell.molecule) != ids.end())
-    waiting[cell.molecule] = cell.vertices;
 }
 
 /* ----------------------------------------------------------------------
@@ -239,14 +185,11 @@ void FixRBCStream::add_points()
 {
   int of_cells = 0;
   for (const CellMembranes *cells : all_cell_membranes(lmp)) of_cells |= cells->groupbit();
-  Vec3 margin = Vec3::Constant(gap);
-  if (stretch) margin[along] += 4 * placement->reach();    // copies may lie before it
   std::vector<double> mine;
   for (int i = 0; i < atom->nlocal; ++i) {
     if (atom->mask[i] & of_cells) continue;
     const Vec3 x = near_feed(Vec3(atom->x[i])), from = x - feed_lo;
-    if ((from.array() > -margin.array()).all() &&
-        (from.array() < (feed_length + margin).array()).all())
+    if ((from.array() > -gap).all() && (from.array() < feed_length.array() + gap).all())
       mine.insert(mine.end(), x.data(), x.data() + 3);
   }
   const std::vector<double> all = gather_on_first(mine, world);
@@ -259,74 +202,25 @@ void FixRBCStream::add_points()
 
 std::vector<std::vector<Vec3>> FixRBCStream::find_arrivals()
 {
-  collect_obstacles();
   std::vector<std::vector<Vec3>> found;
-  if (comm->me == 0) {
-    if (stretch) add_copies(found);
-    add_random(found);
+  if (stretch) add_copies(found);
+  if (ledger->owed() >= late()) {
+    add_points();
+    if (comm->me == 0) add_random(found);
   }
   auto drawn = static_cast<bigint>(placement->drawn());
   MPI_Bcast(&drawn, 1, MPI_LMP_BIGINT, 0, world);
   placement->set_drawn(drawn);
   share(found);
-  if (found.empty()) warn_of_delay();
+  if (found.size() == copies.size()) warn_of_delay();
   return found;
-}
-
-/* ----------------------------------------------------------------------
-   of cells that have left the periodic stretch, as they are
-------------------------------------------------------------------------- */
-
-void FixRBCStream::add_copies(std::vector<std::vector<Vec3>> &found)
-{
-  const std::vector<std::int64_t> ids = stretch->waiting();    // which others are taken from
-  for (std::int64_t id : ids) {
-    const auto cell = waiting.find(static_cast<tagint>(id));
-    if (cell == waiting.end()) continue;
-    if (ledger->owed() - static_cast<double>(found.size()) < -AHEAD) return;
-    if (add_copy(cell->second, stretch->length(), found)) stretch->copied(id);
-  }
-}
-
-/* ----------------------------------------------------------------------
-   By so much back or, where there is no room, by up to a diameter more: the cells before it may
-   have moved on otherwise than those that they are copies of, and in the plasma before the stretch
-   there is room.
-------------------------------------------------------------------------- */
-
-bool FixRBCStream::add_copy(const std::vector<Vec3> &original, double by,
-                            std::vector<std::vector<Vec3>> &found)
-{
-  for (int later = 0; later <= LATER; ++later) {
-    const double back = by + later * 2 * placement->reach() / LATER;
-    std::vector<Vec3> vertices = original;
-    for (Vec3 &vertex : vertices) vertex[along] -= upwards ? back : -back;
-    if (!placement->take(vertices)) continue;
-    found.push_back(std::move(vertices));
-    return true;
-  }
-  return false;
 }
 
 /* ---------------------------------------------------------------------- */
 
-bool FixRBCStream::add_another(std::vector<std::vector<Vec3>> &found)
-{
-  for (int n = 0; n < OTHERS && !inside.empty(); ++n) {
-    const Inside &cell = inside[placement->pick(inside.size())];
-    if (add_copy(cell.vertices, cell.along, found)) return true;
-  }
-  return false;
-}
-
-/* ----------------------------------------------------------------------
-   with a periodic stretch a copy of one of its cells, before it
-------------------------------------------------------------------------- */
-
 void FixRBCStream::add_random(std::vector<std::vector<Vec3>> &found)
 {
-  while (ledger->owed() - static_cast<double>(found.size()) >= late()) {
-    if (add_another(found)) continue;
+  for (double owed = ledger->owed(); owed >= late(); --owed) {
     const auto place = placement->find(attempts);
     if (!place) return;
     found.emplace_back();
@@ -378,7 +272,8 @@ void FixRBCStream::remove_leavers()
     marked[i] = (atom->mask[i] & groupbit) &&
                 std::binary_search(molecules.begin(), molecules.end(), atom->molecule[i]);
   remove_atoms(lmp, std::move(marked));
-  for (const Leaver &leaver : leavers) ledger->let_out(leaver.outlet);
+  for (const Leaver &leaver : leavers)
+    if (leaver.outlet >= 0) ledger->let_out(leaver.outlet);
 }
 
 /* ----------------------------------------------------------------------
@@ -405,6 +300,7 @@ void FixRBCStream::add_arrivals()
   if (last_molecule > MAXTAGINT - static_cast<tagint>(arrivals.size()))
     error->all(FLERR, "{}: no molecule IDs are left beyond {}, the largest", style, last_molecule);
 
+  note_copies();
   NewAtoms atoms(lmp, style, static_cast<bigint>(arrivals.size()) * size, last_atom);
   for (const std::vector<Vec3> &vertices : arrivals) {
     ++last_molecule;
@@ -417,5 +313,5 @@ void FixRBCStream::add_arrivals()
     }
   }
   atoms.finish();
-  ledger->let_in(static_cast<int>(arrivals.size()));
+  ledger->let_in(static_cast<int>(arrivals.size() - copies.size()));
 }

@@ -49,8 +49,9 @@ void FixRBCStream::find_feed()
   room = hematocrit * share * feed_length.prod() / membranes->shape().volume;
   placement->confine(*feed, feed_lo, feed_length);
   if (along < 0) return;
+  check_stretch(points, vessel);
   const std::vector<double> state = stretch ? stretch->state() : remembered;
-  stretch.emplace(feed_length[along], placement->reach());
+  stretch.emplace(feed_length[along], lead());
   stretch->restore(state);
 }
 
@@ -69,4 +70,38 @@ std::vector<Vec3> FixRBCStream::feed_points() const
     if (!feed->contains(points.back())) points.pop_back();
   }
   return points;
+}
+
+/* ----------------------------------------------------------------------
+   how far before a periodic stretch copies appear: about a diameter of a cell
+------------------------------------------------------------------------- */
+
+double FixRBCStream::lead() const
+{
+  return 2 * placement->reach();
+}
+
+/* ----------------------------------------------------------------------
+   Copies reach half a diameter further than their centres. They need a vessel there, too.
+------------------------------------------------------------------------- */
+
+void FixRBCStream::check_stretch(const std::vector<Vec3> &points, const std::string &vessel) const
+{
+  if (feed_length[along] < 2 * lead())
+    error->all(FLERR,
+               "{} periodic: region {} is {:.4g} long; it must be {:.4g} or more, four radii of a "
+               "cell",
+               style, region, feed_length[along], 2 * lead());
+  if (vessel.empty()) return;
+  const double before = lead() + placement->reach();
+  const RegionEnclosure around(domain->get_region_by_id(vessel), domain);
+  for (Vec3 point : points) {
+    if (place_along(point) > feed_length[along] / SAMPLES) continue;
+    point[along] -= upwards ? before : -before;
+    if (!around.contains(point))
+      error->all(FLERR,
+                 "{} periodic: the vessel must go on straight for {:.4g} before region {}, where "
+                 "copies of cells come from",
+                 style, before, region);
+  }
 }

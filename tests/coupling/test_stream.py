@@ -207,72 +207,35 @@ class Two(unittest.TestCase):
             self.assertGreater(gaps.min(initial=1), GAP - 1e-9)
 
 
-COIN = f"{SIDE / 2} {SIDE / 2} rotate 90 0 1 0"
-LOOP = dict(
-    more=f"molecule rbc {POTENTIALS}/rbc_162.mol\nrbc/create rbc single {FEED[0] + 2} {COIN}\n"
-    f"rbc/create rbc single {FEED[0] + 8} {COIN}",
-    ib=stream_fix(f"{STREAM} periodic x"))
-
-
-class Periodic(unittest.TestCase):
-    """A stretch of a tube with two cells in it, one behind the other."""
-    STEPS = 60
-
-    def test_copies_of_what_leaves_the_region(self):
-        dump = dump_line(1, columns=DUMP).replace("dump atoms all", "dump atoms cells")
-        result = run(stream(**LOOP, dump=dump, run=f"run {self.STEPS}"))
-        table = result.thermo
-        frames = [cells_of(frame) for frame in result.dump().frames]
-        length = FEED[1] - FEED[0]
-        copies = 0
-        for before, now in zip(frames, frames[1:]):
-            for new in set(now) - set(before):
-                shifts = [now[old] - now[new] for old in before if old in now]
-                same = [shift for shift in shifts if abs(shift - shift[0]).max() < 1e-9]
-                if not same:    # drawn at random
-                    continue
-                copies += 1
-                np.testing.assert_allclose(same[0][0][1:], 0, atol=1e-9)
-                self.assertGreaterEqual(same[0][0][0], length - 1e-9)
-                self.assertLess(same[0][0][0], length + 9)
-                self.assertGreater(now[new][:, 0].mean(), FEED[0] - 9)
-        print(f"\n{copies} copies of {table[COLUMNS[0]][-1]:.0f} cells that entered, owed "
-              f"{table[COLUMNS[3]].min():.2f} to {table[COLUMNS[3]].max():.2f}")
-        self.assertGreaterEqual(copies, 2)
-        self.assertGreater(table[COLUMNS[3]].min(), -2)
-        self.assertLess(table[COLUMNS[3]].max(), 2.5)
+def check_pieces(test, steps, all_ranks, **changes):
+    """A run in pieces, or continued from a restart file, is that of one piece, in which cells enter
+    all the time."""
+    columns = "id mol xu yu zu vx vy vz"
+    begin = stream(every=f"thermo {steps}", run="", dump="", **changes)
+    after = after_restart(begin)
+    script = (f"{begin}{dump_line(2 * steps, 'whole', columns)}\nrun {2 * steps}\nclear\n"
+              f"{begin}{dump_line(2 * steps, 'pieces', columns)}\n"
+              f"run {steps}\nwrite_restart r\nrun {steps}\nclear\n"
+              f"read_restart r\n{after}\n{dump_line(2 * steps, 'after', columns)}\n"
+              f"run {steps}\n")
+    for ranks in all_ranks:
+        result = run(script, ranks)
+        tables = result.tables()
+        test.assertGreater(tables[0][COLUMNS[0]][-1], tables[1][COLUMNS[0]][-1])
+        test.assertGreater(tables[1][COLUMNS[0]][-1], 0)
+        whole = result.dump("whole").frames[-1]
+        for name, table in (("pieces", tables[2]), ("after", tables[3])):
+            with test.subTest(name, ranks=ranks):
+                np.testing.assert_array_equal(result.dump(name).frames[-1], whole)
+                for column in COLUMNS:
+                    test.assertEqual(table[column][-1], tables[0][column][-1])
 
 
 class Restart(unittest.TestCase):
     STEPS, RANKS = 30, (1, 2)
 
     def test_a_run_in_pieces_is_that_of_one_piece(self):
-        self.check()
-
-    def test_with_a_periodic_stretch(self):
-        self.check(**LOOP)
-
-    def check(self, **changes):
-        steps = self.STEPS
-        columns = "id mol xu yu zu vx vy vz"
-        begin = stream(every=f"thermo {steps}", run="", dump="", **changes)
-        after = after_restart(begin)
-        script = (f"{begin}{dump_line(2 * steps, 'whole', columns)}\nrun {2 * steps}\nclear\n"
-                  f"{begin}{dump_line(2 * steps, 'pieces', columns)}\n"
-                  f"run {steps}\nwrite_restart r\nrun {steps}\nclear\n"
-                  f"read_restart r\n{after}\n{dump_line(2 * steps, 'after', columns)}\n"
-                  f"run {steps}\n")
-        for ranks in self.RANKS:
-            result = run(script, ranks)
-            tables = result.tables()
-            self.assertGreater(tables[0][COLUMNS[0]][-1], tables[1][COLUMNS[0]][-1])
-            self.assertGreater(tables[1][COLUMNS[0]][-1], 0)
-            whole = result.dump("whole").frames[-1]
-            for name, table in (("pieces", tables[2]), ("after", tables[3])):
-                with self.subTest(name, ranks=ranks):
-                    np.testing.assert_array_equal(result.dump(name).frames[-1], whole)
-                    for column in COLUMNS:
-                        self.assertEqual(table[column][-1], tables[0][column][-1])
+        check_pieces(self, self.STEPS, self.RANKS)
 
     def test_other_outlets(self):
         begin = stream(run="", dump="")
@@ -287,25 +250,28 @@ def after_restart(script):
     return "\n".join(line for line in script.splitlines() if not line.startswith(created))
 
 
-class Tasks(unittest.TestCase):
-    STEPS = 30
+def check_tasks(test, steps, **changes):
+    """The same cells come and go on any number of tasks."""
+    wall = f"{TUBE['wall'].replace('tol 1e-4', 'tol 1e-11')}\n{MEMBRANE}\n{CONTACT}"
+    dump = dump_line(steps, columns=DUMP)
+    results = [run(stream(wall=wall, dump=dump, run=f"run {steps}", **changes), ranks)
+               for ranks in (1, 2, 4)]
+    test.assertGreater(results[0].thermo[COLUMNS[0]][-1], 0)
+    test.assertGreater(results[0].thermo[COLUMNS[1]][-1], 0)
+    for result in results[1:]:
+        for column in COLUMNS:
+            np.testing.assert_allclose(result.thermo[column], results[0].thermo[column],
+                                       rtol=1e-9, atol=1e-9)
+        frames = [one.dump().frames[-1] for one in (result, results[0])]
+        np.testing.assert_array_equal(frames[0][:, :2], frames[1][:, :2])
+        apart = abs(frames[0] - frames[1]).max()
+        print(f"\napart {apart:.2g}")
+        test.assertLess(apart, 1e-6)
 
+
+class Tasks(unittest.TestCase):
     def test_any_number_of_them(self):
-        wall = f"{TUBE['wall'].replace('tol 1e-4', 'tol 1e-11')}\n{MEMBRANE}\n{CONTACT}"
-        dump = dump_line(self.STEPS, columns=DUMP)
-        results = [run(stream(wall=wall, dump=dump, run=f"run {self.STEPS}"), ranks)
-                   for ranks in (1, 2, 4)]
-        self.assertGreater(results[0].thermo[COLUMNS[0]][-1], 0)
-        self.assertGreater(results[0].thermo[COLUMNS[1]][-1], 0)
-        for result in results[1:]:
-            for column in COLUMNS:
-                np.testing.assert_allclose(result.thermo[column], results[0].thermo[column],
-                                           rtol=1e-9, atol=1e-9)
-            frames = [one.dump().frames[-1] for one in (result, results[0])]
-            np.testing.assert_array_equal(frames[0][:, :2], frames[1][:, :2])
-            apart = abs(frames[0] - frames[1]).max()
-            print(f"\napart {apart:.2g}")
-            self.assertLess(apart, 1e-6)
+        check_tasks(self, 30)
 
 
 class OtherStyles(unittest.TestCase):

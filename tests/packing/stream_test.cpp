@@ -4,7 +4,6 @@
 #include "../geometry/test_support.h"
 #include "geometry/triangle_distance.h"
 #include "packing/cell_placement.h"
-#include "packing/periodic_stretch.h"
 #include "packing/stream_ledger.h"
 #include "packing/surface_gap.h"
 
@@ -164,7 +163,7 @@ TEST(CellPlacement, CellsKeepTheGapFromAllThatIsThere)
   }
 }
 
-TEST(CellPlacement, TakesCellsOfAnyShapeThatKeepTheGap)
+TEST(CellPlacement, TellsOfCellsOfAnyShapeWhetherTheyKeepAGap)
 {
   const SurfaceTemplate shape = disc(3).surface();
   const double gap = 0.1;
@@ -178,10 +177,11 @@ TEST(CellPlacement, TakesCellsOfAnyShapeThatKeepTheGap)
     Vertices here = waved(shape.vertices, n + count);
     for (Vec3 &x : here) x = apart + turn * x;
     const bool fits = least_distance(shape, here, there) >= gap;
-    CellPlacement placement(shape, gap, 1);
+    CellPlacement placement(shape, 2 * gap, 1);    // which does not count
     placement.avoid_surface({there, &shape.triangles});
-    EXPECT_EQ(placement.take(here), fits);
-    EXPECT_FALSE(placement.take(here)) << "a cell is there already";
+    EXPECT_EQ(placement.fits(here, gap), fits);
+    placement.avoid_surface({here, &shape.triangles});
+    EXPECT_FALSE(placement.fits(here, gap)) << "a cell is there already";
     fitted += fits;
   }
   EXPECT_GT(fitted, count / 4);
@@ -189,74 +189,25 @@ TEST(CellPlacement, TakesCellsOfAnyShapeThatKeepTheGap)
 
   CellPlacement placement(shape, gap, 1);
   placement.avoid_point(shape.vertices[0] * 1.05);
-  EXPECT_FALSE(placement.take(shape.vertices));
+  EXPECT_FALSE(placement.fits(shape.vertices, gap));
   placement.clear();
   placement.avoid_point(Vec3::Zero());    // inside
-  EXPECT_FALSE(placement.take(shape.vertices));
+  EXPECT_FALSE(placement.fits(shape.vertices, gap));
   placement.clear();
   placement.avoid_point(shape.vertices[0] * 3);
-  EXPECT_TRUE(placement.take(shape.vertices));
+  EXPECT_TRUE(placement.fits(shape.vertices, gap));
 }
 
-using Cells = std::vector<rbc::PeriodicStretch::Cell>;
-using IDs = std::vector<std::int64_t>;
-
-TEST(PeriodicStretch, CellsThatLeaveItWaitForACopy)
+TEST(CellPlacement, SurfacesOfARowDoNotCountForEachOther)
 {
-  rbc::PeriodicStretch stretch(10, 2);
-  stretch.follow(
-      Cells{{1, 9, false}, {2, 9.5, false}, {3, 10.5, false}, {4, 9, true}, {5, -1, false}});
-  EXPECT_EQ(stretch.waiting(), IDs{});
-  stretch.follow(Cells{{1, 10, false},
-                       {2, 10.5, false},
-                       {3, 11, false},
-                       {4, 10.5, false},
-                       {5, 0, false},
-                       {6, 11, false}});
-  EXPECT_EQ(stretch.waiting(), (IDs{2, 1}));    // 3, 4 and 6 were not in it
-  stretch.copied(2);
-  stretch.follow(Cells{{1, 10.7, false}, {2, 11, false}, {5, 0.5, false}});
-  EXPECT_EQ(stretch.waiting(), IDs{1});
-  stretch.follow(Cells{{1, 12, false}, {2, 11.5, false}, {5, -0.5, false}});
-  EXPECT_EQ(stretch.waiting(), IDs{});    // too late; 5 left it at its beginning
-  stretch.follow(Cells{{1, 9, false}, {5, 0.1, false}});
-  stretch.follow(Cells{{1, 11, false}});    // came back; 5 has gone
-  EXPECT_EQ(stretch.waiting(), IDs{1});
-}
-
-TEST(PeriodicStretch, CellsElsewhereMayBeLeftOut)
-{
-  rbc::PeriodicStretch all(10, 2), some(10, 2);
-  int left_out = 0, waited = 0;
-  for (int time = 0; time < 60; ++time) {
-    Cells cells, near;
-    for (int id = 1; id <= 20; ++id) {
-      const double along = 7 + 9 * std::sin(0.13 * id * time + id);
-      cells.push_back({id, along, id % 7 == time % 7});
-      if (!all.is_elsewhere(cells.back())) near.push_back(cells.back());
-    }
-    all.follow(cells);
-    some.follow(near);
-    EXPECT_EQ(some.state(), all.state());
-    left_out += static_cast<int>(cells.size() - near.size());
-    waited += static_cast<int>(all.waiting().size());
-  }
-  EXPECT_GT(left_out, 100);
-  EXPECT_GT(waited, 20);
-}
-
-TEST(PeriodicStretch, GoesOnFromItsState)
-{
-  rbc::PeriodicStretch one(10, 2), other(10, 2);
-  one.follow(Cells{{7, 9, false}, {8, 9, false}, {9, 3, false}});
-  one.follow(Cells{{7, 10.1, false}, {8, 9.9, false}, {9, 4, false}});
-  other.restore(one.state());
-  for (rbc::PeriodicStretch *stretch : {&one, &other}) {
-    EXPECT_EQ(stretch->waiting(), IDs{7});
-    stretch->follow(Cells{{7, 10.2, false}, {8, 10.3, false}, {9, 4.1, false}});
-    EXPECT_EQ(stretch->waiting(), (IDs{8, 7}));
-  }
-  EXPECT_EQ(one.state(), other.state());
+  const SurfaceTemplate shape = disc(2).surface();
+  CellPlacement placement(shape, 0.1, 1);
+  placement.avoid_surface({shape.vertices, &shape.triangles}, 0.25);
+  EXPECT_TRUE(placement.fits(shape.vertices, 0.1, 0.25));
+  EXPECT_FALSE(placement.fits(shape.vertices, 0.1, 0.5));
+  EXPECT_FALSE(placement.fits(shape.vertices, 0.1));
+  placement.avoid_surface({shape.vertices, &shape.triangles});
+  EXPECT_FALSE(placement.fits(shape.vertices, 0.1, 0.25));
 }
 
 TEST(CellPlacement, NeitherInsideASurfaceNorAroundOne)
@@ -294,20 +245,6 @@ TEST(CellPlacement, ADrawIsTheSameWhateverWasDrawnBefore)
   EXPECT_EQ(place->rotation, same->rotation);
   EXPECT_EQ(one.drawn(), other.drawn());
   EXPECT_GT((place->centre - differs->centre).norm(), 0.01);
-}
-
-TEST(CellPlacement, PicksAllNumbersAlike)
-{
-  const SurfaceTemplate shape = disc(2).surface();
-  CellPlacement placement(shape, 0.05, 9);
-  const int count = 3000;
-  std::array<int, 3> picked{};
-  for (int n = 0; n < count; ++n) ++picked[placement.pick(3)];
-  for (int times : picked) EXPECT_NEAR(times, count / 3.0, 5 * std::sqrt(count * 2.0 / 9));
-  EXPECT_EQ(placement.drawn(), count);
-  const std::size_t last = placement.pick(1000000);
-  placement.set_drawn(count);
-  EXPECT_EQ(placement.pick(1000000), last);
 }
 
 /// Means over n draws lie within 5 standard deviations of those of uniform distributions.

@@ -9,23 +9,28 @@ from scene_case import polyhedron, run_example, study_of
 
 class Stream(unittest.TestCase):
     def test_first_steps(self):
+        self.check(study_of("stream").STREAM, 0.3 * 0.8, transits=0.12)
+
+    def test_first_steps_of_40_percent(self):
+        self.check(study_of("stream").DENSE, 0.3, transits=0.09, dense=1)
+
+    def check(self, scene, way, **variables):
         study = study_of("stream")
-        result = run_example("stream", transits=0.12, every=1, frames=1000)
-        rows = study.read(result.path("stream.dat"))
+        result = run_example("stream", every=1, frames=1000, **variables)
+        rows = study.read(result.path("stream.dat"), scene)
         transits, entered, left, inside, owed = rows[:, :5].T
         self.assertAlmostEqual(study.VOLUME / polyhedron("rbc_162")[1], 1, delta=1e-4)
-        volume = np.pi * study.DIAMETER**2 / 4 * study.LENGTH
         steps = np.arange(1, len(rows) + 1)
-        np.testing.assert_allclose(transits, steps * 0.3 * 0.8 / study.LENGTH, rtol=1e-4)
+        np.testing.assert_allclose(transits, steps * way / scene.length, rtol=1e-4)
         # nothing is lost by counting
-        np.testing.assert_allclose(entered + owed,
-                                   study.HEMATOCRIT * transits * volume / study.VOLUME, atol=1e-3)
+        wanted = scene.hematocrit * transits * scene.tube / study.VOLUME
+        np.testing.assert_allclose(entered + owed, wanted, atol=1e-3)
         self.assertLess(abs(owed).max(), 2)
         self.assertGreaterEqual(entered[-1], 5)
         self.assertGreaterEqual(left[-1], 1)
         self.assertEqual(len(set(inside - entered + left)), 1)
-        entering, leaving = study.discharge(rows, transits[0], transits[-1])
-        passed = (transits[-1] - transits[0]) * volume
+        entering, leaving = study.discharge(rows, transits[0], transits[-1], scene)
+        passed = (transits[-1] - transits[0]) * scene.tube
         self.assertAlmostEqual(entering * passed / study.VOLUME, entered[-1] - entered[0])
         self.assertAlmostEqual(leaving * passed / study.VOLUME, left[-1] - left[0])
 

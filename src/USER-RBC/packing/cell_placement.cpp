@@ -102,30 +102,30 @@ void CellPlacement::clear()
   points_.clear();
 }
 
-CellPlacement::Placed::Placed(Surface surface_in) :
-    surface(std::move(surface_in)), centre(Vec3::Zero()), radius(0)
+CellPlacement::Placed::Placed(Surface surface_in, double row_in) :
+    surface(std::move(surface_in)), centre(Vec3::Zero()), radius(0), row(row_in)
 {
   for (const Vec3 &vertex : surface.vertices) centre += vertex;
   centre /= static_cast<double>(surface.vertices.size());
   for (const Vec3 &vertex : surface.vertices) radius = std::max(radius, (vertex - centre).norm());
 }
 
-void CellPlacement::avoid_surface(Surface surface)
+void CellPlacement::avoid_surface(Surface surface, double row)
 {
-  placed_.emplace_back(std::move(surface));
+  placed_.emplace_back(std::move(surface), row);
 }
 
-bool CellPlacement::take(std::vector<Vec3> vertices)
+bool CellPlacement::fits(std::vector<Vec3> vertices, double gap, double row) const
 {
-  Placed cell({std::move(vertices), &shape_.surface.triangles});
+  const Placed cell({std::move(vertices), &shape_.surface.triangles});
   for (const Vec3 &point : points_)
-    if ((point - cell.centre).norm() < cell.radius + gap_ && !is_off(point, cell.surface, gap_))
+    if ((point - cell.centre).norm() < cell.radius + gap && !is_off(point, cell.surface, gap))
       return false;
   for (const Placed &other : placed_)
-    if ((other.centre - cell.centre).norm() < cell.radius + gap_ + other.radius &&
-        !are_apart(cell.surface, other.surface, gap_))
+    if (other.row != row &&
+        (other.centre - cell.centre).norm() < cell.radius + gap + other.radius &&
+        !are_apart(cell.surface, other.surface, gap))
       return false;
-  placed_.push_back(std::move(cell));
   return true;
 }
 
@@ -141,11 +141,6 @@ std::optional<CellPlacement::Place> CellPlacement::find(int draws)
     return Place{cell->centre, cell->rotation};
   }
   return std::nullopt;
-}
-
-std::size_t CellPlacement::pick(std::size_t count)
-{
-  return numbers(drawn_++)() % count;
 }
 
 std::mt19937_64 CellPlacement::numbers(std::int64_t draw) const

@@ -4,6 +4,7 @@
 #include "packing/rigid_cell.h"
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <random>
 #include <vector>
@@ -25,6 +26,8 @@ class CellPlacement {
     const std::vector<SurfaceTemplate::Corners> *triangles;
   };
 
+  static constexpr double no_row = std::numeric_limits<double>::quiet_NaN();
+
   /// Cells keep `gap` from what is there.
   CellPlacement(const SurfaceTemplate &cell, double gap, unsigned seed);
 
@@ -34,19 +37,17 @@ class CellPlacement {
   // What is there.
 
   void clear();
-  void avoid_surface(Surface surface);
+  /// Surfaces of one row are as far from each other as it may be, and do not count for each other.
+  void avoid_surface(Surface surface, double row = no_row);
   void avoid_point(const Vec3 &point) { points_.push_back(point); }
 
   /// A place at which a cell fits, if one of the next draws is such a place, up to `draws` of them.
   /// A cell placed there is avoided from then on.
   std::optional<Place> find(int draws);
 
-  /// Whether a cell of any shape that has these vertices keeps the gap where it is; if so it is
-  /// avoided from then on. The enclosure does not count.
-  bool take(std::vector<Vec3> vertices);
-
-  /// A number below `count`, by the next draw.
-  std::size_t pick(std::size_t count);
+  /// Whether a cell of any shape that has these vertices keeps a gap of its own where it is. The
+  /// enclosure does not count.
+  bool fits(std::vector<Vec3> vertices, double gap, double row = no_row) const;
 
   /// Draws made so far.
   std::int64_t drawn() const { return drawn_; }
@@ -60,8 +61,9 @@ class CellPlacement {
     Surface surface;
     Vec3 centre;
     double radius;    ///< of the sphere about it that holds the surface
+    double row;
 
-    explicit Placed(Surface surface);
+    explicit Placed(Surface surface, double row = no_row);
   };
 
   RigidShape shape_;

@@ -29,16 +29,18 @@ void StreamLedger::start(double inlet, const std::vector<double> &outlets)
   if (rates_.empty()) rates_ = together(inlet, outlets);
 }
 
-void StreamLedger::pass(double dt, double inlet, const std::vector<double> &outlets)
+double StreamLedger::pass(double dt, double inlet, const std::vector<double> &outlets)
 {
   start(inlet, outlets);
   const std::vector<double> now = together(inlet, outlets);
   const double entered = forward_volume(dt, rates_[0], now[0]);
   inlet_.volume += entered;
-  owed_ += hematocrit_ * entered / cell_volume_;
+  const double due = hematocrit_ * entered / cell_volume_;
+  owed_ += due;
   for (std::size_t n = 0; n < outlets_.size(); ++n)
     outlets_[n].volume += forward_volume(dt, rates_[n + 1], now[n + 1]);
   rates_ = now;
+  return due;
 }
 
 void StreamLedger::let_in(int cells)

@@ -28,8 +28,9 @@ class StreamLedger {
   /// start. Does nothing if they are known, from a step or another ledger's state.
   void start(double inlet, const std::vector<double> &outlets);
 
-  /// A step of time dt that ends with these rates. They are linear in it.
-  void pass(double dt, double inlet, const std::vector<double> &outlets);
+  /// A step of time dt that ends with these rates. They are linear in it. Returns how many cells
+  /// are owed for what enters.
+  double pass(double dt, double inlet, const std::vector<double> &outlets);
 
   void let_in(int cells);
   void let_out(int outlet);
