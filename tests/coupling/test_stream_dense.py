@@ -135,7 +135,7 @@ class Pieces(unittest.TestCase):
 
 
 class Tasks(unittest.TestCase):
-    STEPS = 100
+    STEPS = 25
 
     def test_any_number_of_them(self):
         test_stream.check_tasks(self, self.STEPS, **dense())

@@ -9,12 +9,13 @@ from scene_case import polyhedron, run_example, study_of
 
 class Stream(unittest.TestCase):
     def test_first_steps(self):
-        self.check(study_of("stream").STREAM, 0.3 * 0.8, transits=0.12)
+        self.check(study_of("stream").STREAM, 0.3 * 0.8, 2, transits=0.12)
 
     def test_first_steps_of_40_percent(self):
-        self.check(study_of("stream").DENSE, 0.3, transits=0.09, dense=1)
+        """There is a gap between the cells that are there and the first copies."""
+        self.check(study_of("stream").DENSE, 0.3, 4, transits=0.09, dense=1)
 
-    def check(self, scene, way, **variables):
+    def check(self, scene, way, most_owed, **variables):
         study = study_of("stream")
         result = run_example("stream", every=1, frames=1000, **variables)
         rows = study.read(result.path("stream.dat"), scene)
@@ -25,7 +26,7 @@ class Stream(unittest.TestCase):
         # nothing is lost by counting
         wanted = scene.hematocrit * transits * scene.tube / study.VOLUME
         np.testing.assert_allclose(entered + owed, wanted, atol=1e-3)
-        self.assertLess(abs(owed).max(), 2)
+        self.assertLess(abs(owed).max(), most_owed)
         self.assertGreaterEqual(entered[-1], 5)
         self.assertGreaterEqual(left[-1], 1)
         self.assertEqual(len(set(inside - entered + left)), 1)
