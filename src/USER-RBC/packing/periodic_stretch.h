@@ -38,8 +38,8 @@ class PeriodicStretch {
 
   /// All cells there are, at a later time; those elsewhere may be left out. `owed`: how many should
   /// have come past the beginning from the start, and did not. Where cells are owed, or the flux of
-  /// those in the loop is low, the loop gets shorter: copies come nearer to their cells. Returns how
-  /// many have come past the beginning.
+  /// those in the loop is low, the loop gets shorter: copies come nearer to their cells. Returns
+  /// how many have come past the beginning.
   int follow(const std::vector<Cell> &cells, double owed);
 
   /// Cells without a copy that should have one, those first that are furthest along.
