@@ -60,7 +60,7 @@ def read(path):
     some steps twice."""
     data = np.loadtxt(path, ndmin=2)
     data = data[np.unique(data[::-1, 0], return_index=True)[1] * -1 + len(data) - 1]
-    step, ms, stream, into = data[:, 0], data[:, 1], data[:, 2:16], data[:, 16:18]
+    step, ms, stream, into = data[:, 0], data[:, 1], data[:, 2:-2], data[:, -2:]
     return dict(step=step, ms=ms, entered=stream[:, 0], left=stream[:, 1], inside=stream[:, 2],
                 owed=stream[:, 3], volume=stream[:, 6], volumes=stream[:, [10, 13]],
                 gone=stream[:, [8, 11]], into=into)
