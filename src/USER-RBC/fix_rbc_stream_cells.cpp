@@ -252,12 +252,14 @@ void FixRBCStream::warn_of_delay()
 {
   if (warned || ledger->owed() < std::max(LEAST_DELAY, LONG_DELAY * room)) return;
   warned = true;
-  if (comm->me == 0)
-    error->warning(FLERR,
-                   "{}: {:.3g} cells are owed at step {}, for which there is no room in region "
-                   "{}: make it longer or wider, or use more attempts than {}, a smaller overlap "
-                   "than {:.4g} or a lower hematocrit than {:.4g}",
-                   style, ledger->owed(), update->ntimestep, region, attempts, gap, hematocrit);
+  if (comm->me != 0) return;
+  const std::string help =
+      stretch ? "make it longer, or at the start fill it and what is behind it denser, or use"
+              : fmt::format("make it longer or wider, or use more attempts than {},", attempts);
+  error->warning(FLERR,
+                 "{}: {:.3g} cells are owed at step {}, for which there is no room in region {}: "
+                 "{} a smaller overlap than {:.4g} or a lower hematocrit than {:.4g}",
+                 style, ledger->owed(), update->ntimestep, region, help, gap, hematocrit);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -33,6 +33,7 @@ class FlowForcing : protected Pointers {
   /// (velocity or force density) that is tried for this; not 0.
   void start_control(bool by_mean, double probe);
   bool probing() const { return control_.probing(); }
+  bool probes_response() const { return control_.probes_response(); }
 
   /// Whether the control knows the response to the input that `by_mean` tells, from this run or
   /// those before.

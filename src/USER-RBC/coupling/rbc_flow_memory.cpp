@@ -64,7 +64,7 @@ bool DrivenFlow::probe_flow_rate()
     return true;
   }
   if (!forcing_.probing()) return false;
-  check_probe();
+  if (forcing_.probes_response()) check_probe();
   correct_flow_rate();
   return true;
 }

@@ -49,6 +49,7 @@ class FlowPorts : protected Pointers {
 
   bool controls() const { return controlled_.size() > 1; }
   bool probing() const { return controls() && control_.probing(); }
+  bool probes_response() const { return controls() && control_.probes_response(); }
   bool knows_response() const { return controls() && known_ && !control_.probing(); }
 
   /// Probes with this velocity in the narrowest port whose pressure is held. Collective.

@@ -36,7 +36,7 @@ bool DrivenFlow::probe_ports()
     return true;
   }
   if (!ports_->probing()) return false;
-  check_probe();
+  if (ports_->probes_response()) check_probe();
   correct_flow_rate();
   return true;
 }

@@ -18,6 +18,9 @@ class LinearControl {
   void probe(int count, double size);
   bool probing() const { return stage_ <= count(); }
 
+  /// Whether one of the present inputs() is the probe of a response.
+  bool probes_response() const { return probing() && stage_ > 0; }
+
   /// Takes the values that the present inputs() have given and chooses those which should give the
   /// wanted ones; the first count + 1 calls of a probe learn disturbance and responses.
   void adjust(const Numbers &measured, const Numbers &wanted);

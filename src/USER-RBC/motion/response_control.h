@@ -22,6 +22,9 @@ class ResponseControl {
   }
   bool probing() const { return stage_ != Stage::KNOWN; }
 
+  /// Whether the present input() is the probe of the response.
+  bool probes_response() const { return stage_ == Stage::WITH_PROBE; }
+
   /// Whether the quantity grows with the input: a flow that grows against its force would set free
   /// work. Call once the response is known.
   bool takes_work() const { return response_ > 0; }
