@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Differences between runs of the vessel scenes of the examples, at reduced length, on 1, 2 and 4
-ranks.
+"""Differences between runs of the examples' vessels and of dense blood that adheres, at reduced
+length, on 1, 2 and 4 ranks.
 
 Writes ranks.csv and ranks.png to a folder; the executables come from the environment (LMP_RBC,
 MPIEXEC), as in ranks.sh.
@@ -25,19 +25,21 @@ RANKS = (1, 2, 4)
 FRAMES = 40
 BOUND = 1e-6    # of a diameter
 DIAMETER = 7.82    # um
+GROUPS = {"capsule-channel": "capsule", "suspension": "all"}    # of the vertices; others: cells
 
 # variables of the scene, steps, diameter of a cell in its units
 SCENES = {
     "capsule-channel": (dict(shape="capsule_642", length=5, cells=12), 80, 3.4),
     "tube-poiseuille": (dict(length=9.6), 400, DIAMETER),
     "fahraeus": (dict(length=8.4, hematocrit=0.45, shape="rbc_642", dx=0.6), 400, DIAMETER),
-    "throat": (dict(length=4, width=2, throat=1.2, hematocrit=0.3), 200, DIAMETER)}
+    "throat": (dict(length=4, width=2, throat=1.2, hematocrit=0.3), 200, DIAMETER),
+    "suspension": (dict(cells=64, rate=100), 120, DIAMETER)}
 
 
 def script(name, variables, steps):
     variables = {**variables, "scripts": ROOT / "scripts", "frames": 100000}
-    group = "capsule" if name == "capsule-channel" else "cells"
-    return shortened(example_script(name, **variables), group, steps, steps // FRAMES)
+    return shortened(example_script(name, **variables), GROUPS.get(name, "cells"), steps,
+                     steps // FRAMES)
 
 
 def compare(name):
