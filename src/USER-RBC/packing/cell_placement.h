@@ -26,6 +26,7 @@ class CellPlacement {
     const std::vector<SurfaceTemplate::Corners> *triangles;
   };
 
+  /// Not a number, so that it differs from each row and from itself.
   static constexpr double no_row = std::numeric_limits<double>::quiet_NaN();
 
   /// Cells keep `gap` from what is there.
@@ -45,8 +46,8 @@ class CellPlacement {
   /// A cell placed there is avoided from then on.
   std::optional<Place> find(int draws);
 
-  /// Whether a cell of any shape that has these vertices keeps a gap of its own where it is. The
-  /// enclosure does not count.
+  /// Whether a cell with these vertices, of any shape, is `gap` or more from all that is there but
+  /// for surfaces of its row. The enclosure does not count.
   bool fits(std::vector<Vec3> vertices, double gap, double row = no_row) const;
 
   /// Draws made so far.
