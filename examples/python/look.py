@@ -17,9 +17,9 @@ surfaces = rbc.read_surfaces("cells.200.vtp")
 tension = surfaces.data["tension"]
 print(f"{len(surfaces.points)} vertices; tension up to {1000 * tension.max():.2f} uN/m")
 shapes = rbc.shapes_of("cells.200.vtp")
-flattest = min(shapes, key=lambda molecule: abs(shapes[molecule].inclination))
+flattest = min(shapes, key=lambda molecule: abs(shapes[molecule].tilt))
 shape = shapes[flattest]
-print(f"cell {flattest}: {shape.inclination:.1f} degrees to the flow, "
+print(f"cell {flattest}: {shape.tilt:.1f} degrees to the flow, "
       f"reduced volume {shape.reduced_volume:.3f}")
 
 # The flow

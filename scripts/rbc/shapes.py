@@ -3,7 +3,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from rbc.surfaces import read_surfaces
+from rbc.surfaces import Surfaces, read_surfaces
 
 
 class Shape(NamedTuple):
@@ -21,8 +21,16 @@ class Shape(NamedTuple):
 
     @property
     def inclination(self):
-        """Angle of the long axis to a flow along x with its gradient along z, in degrees."""
+        """Angle of the long axis to a flow along x with its gradient along z, in degrees. For what
+        is long, such as a capsule that is drawn out; for discs see tilt."""
         return float(angle_to_flow(self.axes[0]))
+
+    @property
+    def tilt(self):
+        """Angle of the plane across the short axis to such a flow, in degrees: how a disc lies. Its
+        long axis wanders within the disc."""
+        x, _, z = self.axes[2]
+        return float(angle_to_flow(np.array([z, 0, -x])))
 
     @property
     def reduced_volume(self):
@@ -55,6 +63,9 @@ def shape_of(vertices, triangles):
                  np.sqrt(5 * moments[::-1]), axes * np.sign(first)[:, None])
 
 
-def shapes_of(path):
-    """{molecule ID: Shape} of the cells of a .vtp or .pvtp file."""
-    return {molecule: shape_of(*mesh) for molecule, mesh in read_surfaces(path).cells().items()}
+def shapes_of(surfaces):
+    """{molecule ID: Shape} of the cells of Surfaces, or of a .vtp or .pvtp file, given by its
+    path."""
+    if not isinstance(surfaces, Surfaces):
+        surfaces = read_surfaces(surfaces)
+    return {molecule: shape_of(*mesh) for molecule, mesh in surfaces.cells().items()}

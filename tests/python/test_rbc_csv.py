@@ -75,6 +75,7 @@ class Tables(unittest.TestCase):
         last = rows[2]
         self.assertAlmostEqual(float(last["deformation"]), 3 / 5, delta=1e-6)
         self.assertAlmostEqual(float(last["inclination"]), 0, delta=1e-5)
+        self.assertIn("tilt", last)
         self.assertAlmostEqual(float(last["long"]), 4 * np.sqrt(5 / 12), delta=1e-6)
         self.assertEqual([float(last[d]) for d in "xyz"], [3, 4, 5])
 

@@ -49,6 +49,13 @@ class Shapes(unittest.TestCase):
             for axis in shape.axes:
                 self.assertGreater(axis[np.flatnonzero(np.abs(axis) > 1e-12)[0]], 0)
 
+    def test_tilt_is_that_of_the_plane_of_a_disc(self):
+        # whichever way its long axis lies within it
+        for sides in ((5, 4, 1), (4, 5, 1)):
+            for angle in (30, -70):
+                shape = rbc.shape_of(*cuboid(np.array(sides), np.zeros(3), turned(angle)))
+                self.assertAlmostEqual(shape.tilt, angle, delta=1e-10)
+
     def test_of_a_sphere(self):
         # its reduced volume is 1, and a finer mesh is nearer to it, at second order
         errors = [1 - rbc.shape_of(*sphere(2, resolution=n)).reduced_volume for n in (20, 40, 80)]

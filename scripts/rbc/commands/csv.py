@@ -45,10 +45,10 @@ def of_surfaces(files, timestep):
         for molecule, shape in shapes_of(name).items():
             rows.append([step, molecule, *shape.centre, shape.area, shape.volume,
                          shape.reduced_volume, shape.deformation, shape.inclination,
-                         *shape.semi_axes, *shape.axes[0], *shape.axes[2]])
+                         shape.tilt, *shape.semi_axes, *shape.axes[0], *shape.axes[2]])
     names = ("step", "molecule", "x", "y", "z", "area", "volume", "reduced_volume", "deformation",
-             "inclination", "long", "middle", "short", "long_x", "long_y", "long_z", "short_x",
-             "short_y", "short_z")
+             "inclination", "tilt", "long", "middle", "short", "long_x", "long_y", "long_z",
+             "short_x", "short_y", "short_z")
     return with_time(dict(zip(names, np.transpose(rows))), timestep)
 
 
