@@ -213,7 +213,7 @@ void NearSurfaces::build(double range, double slack_of_ghosts, double stale)
     surfaces[i] = cells[cell_at[i]].number;
     points = i + 1;
   }
-  const double travel = 2 * slack_of_ghosts;    // back and forth
+  const double travel = 2 * (slack_of_ghosts + 2 * built.error());    // back and forth
   rbc::NearTriangles::SeesOwn seen;
   if (own_patch > 0) seen = [this](int i, int triangle) { return sees_own(i, triangle); };
   finder.build(points, surfaces.data(), atom->nlocal + atom->nghost, atom->x[0], triangles, range,

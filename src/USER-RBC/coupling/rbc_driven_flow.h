@@ -257,6 +257,8 @@ class DrivenFlow : public StepPart, protected Pointers {
   void start_control();
   void continue_control();
   void start_port_control();
+  /// Of the flow that probes how a vessel or its ports respond.
+  double probe_velocity() const;
   void continue_port_control();
   bool probe_ports();
   void check_probe() const;

@@ -12,9 +12,13 @@
 
 using namespace LAMMPS_NS;
 
-// cells per step of the flow that probes how a vessel responds
+/* ---------------------------------------------------------------------- */
 
-static constexpr double PROBE_COURANT = 0.02;
+double DrivenFlow::probe_velocity() const
+{
+  constexpr double PROBE_COURANT = 0.02;    // cells per step
+  return PROBE_COURANT * smallest_spacing() / (update->dt > 0 ? update->dt : 1);
+}
 
 /* ----------------------------------------------------------------------
    The control first probes the response with the body force that gives Poiseuille flow in a round
@@ -25,7 +29,7 @@ static constexpr double PROBE_COURANT = 0.02;
 void DrivenFlow::start_control()
 {
   const double section = inside_.volume(*flow_) / domain->prd[forcing_.held_direction()];
-  const double velocity = PROBE_COURANT * smallest_spacing() / (update->dt > 0 ? update->dt : 1);
+  const double velocity = probe_velocity();
   const bool by_mean = holds_box_mean();
   const double body = 8 * MathConst::MY_PI * settings_.equations.viscosity * velocity / section;
   forcing_.start_control(by_mean, by_mean ? velocity : body);

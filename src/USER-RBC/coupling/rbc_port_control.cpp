@@ -1,20 +1,14 @@
 // The part of DrivenFlow that holds the pressures in ports.
 
 #include "coupling/rbc_driven_flow.h"
-#include "update.h"
 
 using namespace LAMMPS_NS;
-
-// cells per step, in a port, of the flow that probes how a vessel responds, as for flow rates
-
-static constexpr double PROBE_COURANT = 0.02;
 
 /* ---------------------------------------------------------------------- */
 
 void DrivenFlow::start_port_control()
 {
-  const double dt = update->dt > 0 ? update->dt : 1;
-  ports_->start_control(PROBE_COURANT * smallest_spacing() / dt, *flow_, inside_);
+  ports_->start_control(probe_velocity(), *flow_, inside_);
 }
 
 void DrivenFlow::continue_port_control()
