@@ -165,6 +165,7 @@ void FixRBCIB::init()
   check_run();
   update_default();
   check_inertia();
+  warn_of_default_timestep();
 
   std::vector<CellMembranes *> membranes = all_cell_membranes(lmp);
   const bool late_forces = check_order();
@@ -370,6 +371,14 @@ void FixRBCIB::post_run()
 
 void FixRBCIB::warn() const
 {
+  constexpr double MANY = 0.05;    // of all steps
+  if (steps->adaptive() &&
+      static_cast<double>(steps->failed()) > MANY * static_cast<double>(flow->steps_counted()))
+    error->warning(FLERR,
+                   "Fix rbc/ib {} took steps again because they had gone wrong, {} times in {} "
+                   "steps: what goes wrong, and not the error, sets the timestep, and the line "
+                   "above tells what it was",
+                   id, steps->failed(), flow->steps_counted());
   if (steps->failed() > 0 && !steps->adaptive())
     error->warning(
         FLERR,

@@ -105,6 +105,8 @@ class FixRBCIB : public Fix,
   bool check_order() const;
   void check_moves_all(const CellMembranes &) const;
   double spacing_for_insides() const;
+  std::string pushing_fixes() const;
+  void warn_of_default_timestep() const;
   void check_apart(const WallGroup &) const;
   void warn() const;
 };

@@ -12,6 +12,9 @@
 #include "support/rbc_pair_parts.h"
 #include "update.h"
 
+#include <algorithm>
+#include <vector>
+
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
@@ -49,6 +52,16 @@ void FixRBCIB::check_inertia() const
   if (flow->flow().equations().scheme != fluid::Scheme::coupled)
     error->all(FLERR, "Fix rbc/ib {} scheme direct needs fix rbc/fluid {} scheme coupled", id,
                fluid);
+}
+
+void FixRBCIB::warn_of_default_timestep() const
+{
+  if (!update->dt_default || steps->adaptive() || comm->me != 0) return;
+  error->warning(
+      FLERR,
+      "Fix rbc/ib {}: no timestep was given, so it is LAMMPS's own for units {}, {:.6g}; "
+      "use the timestep command, or adapt",
+      id, update->unit_style, update->dt);
 }
 
 /* ----------------------------------------------------------------------
@@ -129,6 +142,30 @@ double FixRBCIB::spacing_for_insides() const
   return finer;
 }
 
+/* ----------------------------------------------------------------------
+   Returns, in words, the fixes of LAMMPS that add forces to atoms which this fix moves. Collective.
+------------------------------------------------------------------------- */
+
+std::string FixRBCIB::pushing_fixes() const
+{
+  std::vector<Fix *> others;
+  for (Fix *fix : modify->get_fix_list())
+    if ((modify->get_fix_mask(fix) & POST_FORCE) && !utils::strmatch(fix->style, "^rbc/"))
+      others.push_back(fix);
+  std::vector<int> pushes(others.size());
+  for (std::size_t n = 0; n < others.size(); ++n)
+    for (int i = 0; i < atom->nlocal; ++i)
+      if ((atom->mask[i] & groupbit) && (atom->mask[i] & others[n]->groupbit)) pushes[n] = 1;
+  MPI_Allreduce(MPI_IN_PLACE, pushes.data(), static_cast<int>(pushes.size()), MPI_INT, MPI_MAX,
+                world);
+  std::string fixes;
+  for (std::size_t n = 0; n < others.size(); ++n)
+    if (pushes[n])
+      fixes +=
+          fmt::format("{}fix {} {}", fixes.empty() ? "" : ", ", others[n]->style, others[n]->id);
+  return fixes;
+}
+
 /* ---------------------------------------------------------------------- */
 
 std::string FixRBCIB::remedies_for(const std::vector<Flaw> &seen)
@@ -151,6 +188,7 @@ std::string FixRBCIB::remedies_for(const std::vector<Flaw> &seen)
   if (force->pair && !utils::strmatch(force->pair_style, "^zero") &&
       !utils::strmatch(force->pair_style, "^rbc/"))
     now.pair_of_atoms = force->pair_style;
+  now.pushing = pushing_fixes();
   now.timestep = update->dt;
   now.ghost_cutoff = comm->get_comm_cutoff();
   now.skin = neighbor->skin;

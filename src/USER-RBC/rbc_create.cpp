@@ -346,12 +346,19 @@ void RBCCreate::fail_to_pack(double size) const
                                   ? fmt::format("the densest reached is {:.4g} of {}",
                                                 filled / volume * std::pow(size, 3), part)
                                   : "there was no room for all of them at any size that was tried";
-  error->all(FLERR,
-             "Rbc/create could not pack {} cells, {:.4g} of {}{}, without overlap in {} attempts; "
-             "{}; use fewer cells, another seed, a smaller overlap distance{} or more attempts",
-             wanted, filled / volume, part,
-             region ? fmt::format(" and {:.4g} of the box", filled / box) : "", attempts, reached,
-             region ? ", a region that ends at INF in periodic directions" : "");
+  const std::string there =
+      atom->natoms > 0
+          ? fmt::format(
+                " beside the {} atoms that are there already (a restart file has cells, too)",
+                atom->natoms)
+          : "";
+  error->all(
+      FLERR,
+      "Rbc/create could not pack {} cells, {:.4g} of {}{}, without overlap in {} attempts{}; "
+      "{}; use fewer cells, another seed, a smaller overlap distance{} or more attempts",
+      wanted, filled / volume, part,
+      region ? fmt::format(" and {:.4g} of the box", filled / box) : "", attempts, there, reached,
+      region ? ", a region that ends at INF in periodic directions" : "");
 }
 
 /* ----------------------------------------------------------------------

@@ -167,6 +167,15 @@ class Remedies(unittest.TestCase):
             self.assertEqual("; atoms that do not overlap with others at the start (pair_style "
                              "lj/cut)" in result.error, names_it, result.error)
 
+    def test_of_other_forces(self):
+        """Those that act on atoms which the fix moves, whatever the group of either is."""
+        for tasks in (1, 2):
+            result = attempt(scene(
+                cells="rbc/create rbc single 6 6 6\ngroup half id < 80\ngroup none empty",
+                ib=IB + " integrator midpoint", run="run 20", timestep="timestep 100",
+                last="fix push half addforce 1e3 0 0\nfix rest none addforce 1e3 0 0"), tasks)
+            self.assertRegex(result.error, "likeliest first: smaller forces of fix addforce push; ")
+
     def test_of_ghosts_that_are_missing(self):
         result = attempt(
             scene(**FAR, before=pull(20), processors="processors 1 2 1", timestep="timestep 1"), 2)

@@ -219,6 +219,36 @@ class Warnings(unittest.TestCase):
                       "check its units (in units micro it is in mJ/m^2: 0.2 uJ/m^2 is 2e-4)",
                       found[5.1][0])
 
+    def test_what_no_liquid_and_no_membrane_has(self):
+        """Just above and below 1e-4 Pa s and 1e-21 J, in several units; a modulus of 0 is none."""
+        micro = "units micro"
+        cases = {  # units, viscosity, bending: warnings
+            (micro, "0.11", "1.1e-6"): [], (micro, "0.09", "1.1e-6"): ["viscosity"],
+            (micro, "0.11", "0.9e-6"): ["bending"], (micro, "0.11", "0"): [],
+            ("units si", "1.1e-4", "1.1e-21"): [], ("units si", "0.9e-4", "0.9e-21"):
+            ["viscosity", "bending"], ("units cgs", "1.1e-3", "1.1e-14"): [],
+            ("units cgs", "0.9e-3", "0.9e-14"): ["viscosity", "bending"],
+            ("units nano", "0.11", "1.1"): [], ("units nano", "0.09", "0.9"):
+            ["viscosity", "bending"], ("units lj", "1e-9", "1e-30"): []}
+
+        def found(units, viscosity, bending):
+            result = run(scene(
+                units=units, fluid=PLATES.replace("viscosity 1.5", f"viscosity {viscosity}"),
+                membrane=f"fix mem all rbc/membrane rbc skalak 1.0 1 bending {bending}",
+                neighbor="neighbor 1.0 bin", timestep="timestep 1e-9"))
+            return warnings(result)
+
+        results = in_parallel(found, list(cases))
+        for case, result in zip(cases, results):
+            with self.subTest(case):
+                self.assertEqual(len(result), len(cases[case]), result)
+                for warning, words in zip(result, cases[case]):
+                    self.assertIn(words, warning)
+        viscosity = results[list(cases).index((micro, "0.09", "1.1e-6"))][0]
+        self.assertIn("the viscosity of the fluid is 9e-05 Pa s", viscosity)
+        bending = results[list(cases).index((micro, "0.11", "0.9e-6"))][0]
+        self.assertIn("the bending modulus of the cells of fix rbc/membrane mem is 9e-22 J", bending)
+
     def test_cells_that_begin_at_a_plate(self):
         lowest = -read_template(POTENTIALS / "rbc_162.mol")[0][:, 2].min()
         apart = {"lower": (lowest + 0.12, 6), "upper": (6, 12 - lowest - 0.13),

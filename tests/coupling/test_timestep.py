@@ -31,6 +31,15 @@ class Timestep(BadInput):
             self.assertGreater(abs(zero).max(), 1e-4)
             np.testing.assert_allclose(zero, short, rtol=0, atol=1e-10 * abs(short).max())
 
+    def test_one_that_was_not_given_is_warned_of(self):
+        """With adapt it is only the first."""
+        adaptive = IB + "rkc auto adapt 1e-2 200"
+        for timestep, ib, warned in ((None, IB + "midpoint", True), (None, adaptive, False),
+                                     ("timestep 2", IB + "midpoint", False)):
+            printed = run(scene(timestep=timestep, ib=ib, run="run 1\nrun 1")).printed
+            self.assertEqual(printed.count("WARNING: Fix rbc/ib ib: no timestep was given, so it "
+                                           "is LAMMPS's own for units micro, 2; "), 2 * warned)
+
 
 if __name__ == "__main__":
     unittest.main()

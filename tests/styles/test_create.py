@@ -307,6 +307,12 @@ class Random(unittest.TestCase):
         self.assertAlmostEqual(float(whole), cells / (18**2 * 19), delta=1e-4)
         self.assertTrue(0.2 < float(reached) < float(part), failed.error)
 
+    def test_cells_that_are_there_take_room(self):
+        failed = attempt(scene(cells="rbc/create rbc single 6 6 6\n"
+                                     "rbc/create rbc hematocrit 0.7 seed 1 attempts 100"))
+        self.assertIn("without overlap in 100 attempts beside the 162 atoms that are there already "
+                      "(a restart file has cells, too); the densest", failed.error)
+
     def test_a_small_region_of_a_large_box_is_found(self):
         dump = created("region part block 500 510 500 510 5 15\n"
                        "rbc/create rbc number 1 seed 5 region part",

@@ -38,6 +38,10 @@ static constexpr double SHORTEST_RANGE = 1.0;
 
 static constexpr double LARGEST_CAPILLARY_NUMBER = 10, LARGEST_ADHESION = 5;
 
+// Viscosity in Pa s that liquids exceed, and bending modulus in J that membranes exceed.
+
+static constexpr double LEAST_VISCOSITY = 1e-4, LEAST_BENDING = 1e-21;
+
 // Thickness of cells in fluid spacings where the viscosity inside over that of the fluid is larger
 // than this ratio.
 
@@ -47,6 +51,22 @@ static constexpr double LEAST_THICKNESS = 2.0, THIN_RATIO = 8.0;
 // repels a vertex that is nearer: it does not come off, or it comes off within a step.
 
 static constexpr double NEAREST_PLATE = 0.2;
+
+/// What one is, in units of a style of LAMMPS.
+struct SIUnits {
+  const char *style;
+  double viscosity, energy;    ///< in Pa s and J
+};
+
+/// Null for styles that simulations of atoms have, and for lj.
+static const SIUnits *si_units(const std::string &style)
+{
+  static constexpr SIUnits KNOWN[] = {
+      {"si", 1, 1}, {"cgs", 0.1, 1e-7}, {"micro", 1e-3, 1e-15}, {"nano", 1e-3, 1e-21}};
+  const auto found = std::find_if(std::begin(KNOWN), std::end(KNOWN),
+                                  [&](const SIUnits &units) { return style == units.style; });
+  return found == std::end(KNOWN) ? nullptr : found;
+}
 
 /* ---------------------------------------------------------------------- */
 
@@ -74,7 +94,7 @@ void SceneTable::print(const DrivenFlow &flow)
   warn_of_edges();
   warn_of_insides(flow);
   warn_of_contacts();
-  warn_of_units();
+  warn_of_units(flow);
   warn_of_plates(flow);
 }
 
@@ -343,9 +363,28 @@ void SceneTable::warn_of_contacts() const
 }
 
 /// Warns of numbers that look as if they were given in other units.
-void SceneTable::warn_of_units() const
+void SceneTable::warn_of_units(const DrivenFlow &flow) const
 {
   const bool micro = utils::strmatch(update->unit_style, "^micro$");
+  if (const SIUnits *const si = si_units(update->unit_style)) {
+    const double viscosity = flow.settings().equations.viscosity * si->viscosity;
+    if (viscosity < LEAST_VISCOSITY)
+      error->warning(FLERR,
+                     "{}: the viscosity of the fluid is {:.3g} Pa s, and no liquid has less than "
+                     "{}: check its units{}",
+                     style_, viscosity, LEAST_VISCOSITY,
+                     micro ? " (in units micro it is in mPa s: that of plasma is 1.2)" : "");
+    for (const Kind &kind : kinds_) {
+      const double bending = kind.membranes->parameters().bending * si->energy;
+      if (bending > 0 && bending < LEAST_BENDING)
+        error->warning(FLERR,
+                       "{}: the bending modulus of the cells of f{} is {:.3g} J, and below {}, a "
+                       "quarter of the thermal energy, it resists nothing: check its units{}",
+                       style_, kind.membranes->style().substr(1), bending, LEAST_BENDING,
+                       micro ? " (in units micro it is in 1e-15 J: that of healthy cells is 2e-4)"
+                             : "");
+    }
+  }
   for (const Kind &kind : kinds_) {
     const std::string cells = "the cells of f" + kind.membranes->style().substr(1);
     if (kind.capillary_number > LARGEST_CAPILLARY_NUMBER)

@@ -60,7 +60,7 @@ class SceneTable : protected Pointers {
   void warn_of_edges() const;
   void warn_of_insides(const DrivenFlow &flow) const;
   void warn_of_contacts() const;
-  void warn_of_units() const;
+  void warn_of_units(const DrivenFlow &flow) const;
   void warn_of_plates(const DrivenFlow &flow) const;
 };
 

@@ -9,6 +9,7 @@ using namespace LAMMPS_NS;
 namespace {
 
 enum class Remedy {
+  forces,
   dense,
   stages,
   adapt,
@@ -68,6 +69,8 @@ bool applies(Remedy remedy, const Situation &now)
       return now.membranes && !now.creases;
     case Remedy::stretch:
       return now.membranes && !now.limits_stretch;
+    case Remedy::forces:
+      return !now.pushing.empty();
     case Remedy::overlap:
       return !now.pair_of_atoms.empty();
     case Remedy::contact:
@@ -85,6 +88,8 @@ std::string text(Remedy remedy, const Situation &now)
 {
   constexpr double MORE = 1.5;
   switch (remedy) {
+    case Remedy::forces:
+      return fmt::format("smaller forces of {}", now.pushing);
     case Remedy::dense:
       return "include potentials/dense.blood before run, which has what many cells need";
     case Remedy::stages:
@@ -130,6 +135,7 @@ std::string text(Remedy remedy, const Situation &now)
 std::string LAMMPS_NS::remedies(const std::vector<Flaw> &seen, const Situation &situation)
 {
   std::vector<Remedy> named;
+  if (!seen.empty() && applies(Remedy::forces, situation)) named.push_back(Remedy::forces);
   for (Flaw flaw : seen)
     for (Remedy remedy : against(flaw))
       if (applies(remedy, situation) &&

@@ -28,6 +28,7 @@ struct Situation {
   bool membranes = false, creases = false, limits_stretch = false;    ///< all membranes have it
   bool several_cells = false, lacks_contact = false;
   std::string pair_of_atoms;    ///< the pair style if it acts between atoms, else empty
+  std::string pushing;          ///< fixes of LAMMPS that add forces to what moves, else empty
   double timestep = 0, ghost_cutoff = 0, skin = 0;
   /// Of the fluid, with which cells of another viscosity inside are thick enough; 0 if they are.
   double finer_spacing = 0;
