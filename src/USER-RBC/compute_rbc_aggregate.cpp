@@ -134,7 +134,7 @@ void ComputeRBCAggregate::compute_peratom()
     memory->create(vector_atom, nmax, "rbc/aggregate:vector_atom");
   }
   for (int i = 0; i < atom->nlocal; ++i) {
-    const int cell = cells.index_of(atom->molecule[i]);
+    const int cell = cells.cell_of(i);
     vector_atom[i] = cell < 0 ? 0 : static_cast<double>(cells.molecules()[sets.find(cell)]);
   }
 }
@@ -144,6 +144,7 @@ void ComputeRBCAggregate::compute_peratom()
 void ComputeRBCAggregate::find_aggregates()
 {
   if (found_step == update->ntimestep) return;
+  cells.check();
   found_step = update->ntimestep;
   sets = rbc::DisjointSets(cells.size());
   rbc::unite_touching(sets, gather_all(touched_here(), world), least_share);

@@ -85,6 +85,7 @@ void ComputeRBCCell::set_rows(const std::vector<tagint> &before)
 void ComputeRBCCell::compute_array()
 {
   invoked_array = update->ntimestep;
+  cells.check();
   sums.assign(std::size_t(cells.size()) * NSUMS, 0.0);
   for (CellMembranes *membranes : cells.membranes()) add_sums(*membranes);
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,

@@ -2,6 +2,7 @@
 
 #include "atom.h"
 #include "cells/rbc_cell_template.h"
+#include "cells/rbc_group_cells.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -23,7 +24,7 @@ using namespace FixConst;
 
 FixRBCMembrane::FixRBCMembrane(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), ghosts(lmp),
-    cells(lmp, fmt::format("Fix rbc/membrane {}", id), groupbit, parse(narg, arg))
+    cells(lmp, fmt::format("Fix rbc/membrane {}", id), groupbit, parse(narg, arg)), end_of_run(lmp)
 {
   scalar_flag = vector_flag = 1;
   size_vector = 5;
@@ -188,7 +189,7 @@ rbc::SurfaceViscosity FixRBCMembrane::read_viscosity(Arguments &args)
 
 int FixRBCMembrane::setmask()
 {
-  return POST_NEIGHBOR | POST_FORCE;
+  return POST_NEIGHBOR | POST_FORCE | POST_RUN;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -322,7 +323,11 @@ double FixRBCMembrane::compute_scalar()
 
 double FixRBCMembrane::compute_vector(int n)
 {
-  if (n == 4) return cells.is_viscous() ? cells.viscous_power() : 0;
+  if (n == 4) {
+    if (!cells.is_viscous()) return 0;
+    check_atoms_are_those_of_last_run(lmp, cells.style(), all_cell_membranes(lmp));
+    return cells.viscous_power();
+  }
   const rbc::MembraneEnergy &parts = total_energy();
   const double part[4] = {parts.sheet, parts.bending, parts.area, parts.volume};
   return part[n];

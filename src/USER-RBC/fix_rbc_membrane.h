@@ -7,6 +7,7 @@ FixStyle(rbc/membrane,FixRBCMembrane);
 #ifndef LMP_FIX_RBC_MEMBRANE_H
 #define LMP_FIX_RBC_MEMBRANE_H
 
+#include "cells/rbc_atom_mark.h"
 #include "cells/rbc_cell_changes.h"
 #include "cells/rbc_cell_membranes.h"
 #include "fix.h"
@@ -26,6 +27,7 @@ class FixRBCMembrane : public Fix, public MembraneOwner, public CellWatcher {
   void post_neighbor() override;
   void setup(int) override;
   void post_force(int) override;
+  void post_run() override { end_of_run.set(); }
   double compute_scalar() override;
   double compute_vector(int) override;
   double memory_usage() override;
@@ -33,11 +35,13 @@ class FixRBCMembrane : public Fix, public MembraneOwner, public CellWatcher {
   void restart(char *) override;
 
   CellMembranes &membranes() override { return cells; }
+  bool are_atoms_others() const override { return end_of_run.is_old(); }
   void cells_changed() override { cells.cells_changed(); }
 
  private:
   GhostCutoff ghosts;
   CellMembranes cells;
+  AtomMark end_of_run;
   rbc::MembraneEnergy energy;    // of all ranks
   bigint energy_step = -1;
 

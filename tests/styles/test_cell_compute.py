@@ -1,5 +1,6 @@
 """compute rbc/cell against the template's own geometry."""
 
+import re
 import unittest
 
 import numpy as np
@@ -112,12 +113,81 @@ class Rows(unittest.TestCase):
                     np.testing.assert_allclose(rows[:, 1], [5 + 10 * (m - 1) for m in molecules],
                                                atol=1e-10)
 
+    def test_other_atoms_with_the_molecule_id_of_a_cell(self):
+        # they are no vertices: outside of the group they leave the cell in it
+        for ranks in (1, 2):
+            with self.subTest(ranks=ranks):
+                result = run(cell_scene(
+                    create_box="create_box 2 box angle/types 1", fluid=None, ib=None,
+                    cells="mass * 1\nrbc/create rbc single 6 6 6\ncreate_atoms 2 single 1 1 1\n"
+                          "set type 2 mol 1",
+                    before="group cell type 1",
+                    membrane="fix mem cell rbc/membrane rbc neo-hookean 0.01",
+                    compute="compute cell cell rbc/cell\ncompute agg cell rbc/aggregate 0.5\n"
+                            "compute label all reduce sum c_agg",
+                    thermo="thermo_style custom step c_cell[1][1] c_agg[1] c_label"), ranks)
+                self.assertEqual(result.thermo["c_cell[1][1]"][0], 1)
+                self.assertEqual(result.thermo["c_agg[1]"][0], 1)
+                self.assertEqual(result.thermo["c_label"][0], 162)
+
     def test_follow_cells_that_come_and_go(self):
         more = ("rbc/create rbc single 25 6 6\nrun 1\n"
                 "group first molecule 1\ndelete_atoms group first compress no\nrun 1")
         result = run(cell_scene(1, box=THREE["box"], cells="rbc/create rbc single 5 6 6",
                                 run="run 1\n" + more))
         np.testing.assert_array_equal(result.thermo["c_cell[1][1]"], [1, 1, 1, 1, 2, 2])
+
+
+class BetweenRuns(unittest.TestCase):
+    """What is known of cells is that of the last run, until atoms change."""
+
+    CHANGES = {
+        "deleted": "group gone molecule 1\ndelete_atoms group gone compress no",
+        "added": "rbc/create rbc single 15 6 6",
+        "moved": "displace_atoms all move 13 0 0",
+        "one vertex": "set atom 170 x 25.5",
+        "box": "change_box all x scale 1.25 remap",
+        "another fix": "unfix mem\nfix mem all rbc/membrane rbc neo-hookean 0.01",
+        "IDs": "reset_atoms id"}
+    USES = {"Compute rbc/cell cell": "$(c_cell[1][6])", "Compute rbc/aggregate agg": "$(c_agg[1])",
+            "Fix rbc/membrane mem": "$(f_mem[5])"}
+
+    @staticmethod
+    def printed(lines, use, ranks):
+        return attempt(cell_scene(
+            box=THREE["box"], cells="rbc/create rbc single 5 6 6\nrbc/create rbc single 25 6 6",
+            fluid=None, ib=None, thermo=None,
+            membrane="fix mem all rbc/membrane rbc neo-hookean 0.01 viscosity 0.1",
+            compute="compute cell all rbc/cell\ncompute agg all rbc/aggregate 0.3",
+            run=f"group first molecule 2\ndelete_atoms group first compress no\n"
+                f"rbc/create rbc single 25 6 6\nrun 0\n{lines}\n"
+                f'print "found {use}"'), ranks)
+
+    def check_error(self, change, owner, ranks):
+        with self.subTest(change, ranks=ranks, owner=owner):
+            result = self.printed(self.CHANGES[change], self.USES[owner], ranks)
+            for words in (owner, "changed since the last run", "use run 0 first"):
+                self.assertIn(words, result.error, result.printed)
+
+    def test_changed_atoms_are_an_error(self):
+        for change in self.CHANGES:
+            for ranks in (1, 2):
+                self.check_error(change, "Compute rbc/cell cell", ranks)
+
+    def test_whatever_uses_cells(self):
+        for owner in self.USES:
+            self.check_error("deleted", owner, 2)
+
+    def test_after_run_0_all_is_known(self):
+        points, triangles = read_template(POTENTIALS / "rbc_162.mol")
+        volume = geometry(points, triangles)[1]
+        for lines in ("velocity all set 0.1 0 0", self.CHANGES["deleted"] + "\nrun 0",
+                      self.CHANGES["moved"] + "\nrun 0"):
+            for ranks in (1, 2):
+                with self.subTest(lines, ranks=ranks):
+                    result = self.printed(lines, self.USES["Compute rbc/cell cell"], ranks)
+                    found = float(re.search(r"^found (\S+)", result.printed, re.MULTILINE)[1])
+                    self.assertAlmostEqual(found / volume, 1, delta=1e-9)
 
 
 class Motion(unittest.TestCase):

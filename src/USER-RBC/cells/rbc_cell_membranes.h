@@ -211,6 +211,10 @@ class MembraneOwner {
  public:
   virtual CellMembranes &membranes() = 0;
 
+  /// Between runs: whether atoms have changed since the last one, so that its membranes know their
+  /// cells no more. Not collective.
+  virtual bool are_atoms_others() const = 0;
+
  protected:
   ~MembraneOwner() = default;
 };

@@ -10,6 +10,11 @@
 
 namespace LAMMPS_NS {
 
+/// Collective: between runs an error, which `style` begins, if what `known` membranes know of their
+/// cells is out of date: atoms, the box or fixes rbc/membrane have changed since the last run.
+void check_atoms_are_those_of_last_run(LAMMPS *lmp, const std::string &style,
+                                       const std::vector<CellMembranes *> &known);
+
 /// The cells of all fixes rbc/membrane whose atoms are all in a group, numbered in order of
 /// molecule ID.
 class GroupCells : protected Pointers {
@@ -27,8 +32,15 @@ class GroupCells : protected Pointers {
   const std::vector<tagint> &molecules() const { return ids; }
   int size() const { return static_cast<int>(ids.size()); }
 
+  /// Collective, where the cells are about to be used: between runs an error if they are not those
+  /// of the last run.
+  void check() const { check_atoms_are_those_of_last_run(lmp, owner, members); }
+
   /// -1 for a molecule that is not a cell of the group.
   int index_of(tagint molecule) const;
+
+  /// Of which an atom is a vertex, or -1. Others may have the same molecule ID.
+  int cell_of(int i) const;
 
  private:
   std::string owner;
