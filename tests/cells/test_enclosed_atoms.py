@@ -18,22 +18,28 @@ def atoms(places, centre, type):
             for place in places]
 
 
-def warned(lines, ranks, moved="all"):
+def warned(lines, ranks, moved="all", **ways):
     cells = "\n".join(f"rbc/create rbc single {x} {y} {z}" for x, y, z in CENTRES)
     result = run(scene(
         box="region box block 0 24 0 12 0 12", create_box="create_box 3 box angle/types 1",
         cells="\n".join(["mass * 1", cells, *lines]), before="group cells type 1",
         membrane=SHEAR["membrane"].replace("all", "cells"), thermo=None,
-        ib=SHEAR["ib"].replace("all", moved)), ranks)
+        ib=SHEAR["ib"].replace("all", moved), **ways), ranks)
     return re.findall("WARNING: (Fix rbc/ib ib moves .*)", result.printed)
 
 
 class EnclosedAtoms(unittest.TestCase):
+    # Slices of 3, and a side through both cells: no rank has a whole cell, and most have a part.
+    WAYS = [(1, {}), (2, {}), (4, {}), (8, {"processors": "processors 8 1 1"}),
+            (3, {"processors": "processors 1 1 3"}),
+            (4, {"processors": "comm_style tiled", "last": "balance 1.0 rcb"})]
+
     def test_are_warned_of(self):
         lines = [*atoms(OUTSIDE, CENTRES[0], 2), *atoms(OUTSIDE, CENTRES[1], 2),
                  *atoms(INSIDE, CENTRES[0], 2), *atoms(INSIDE[:1], CENTRES[1], 3)]
         first = 2 * 162 + 2 * len(OUTSIDE) + 1
-        for found in in_parallel(lambda ranks: warned(lines, ranks), [(1,), (2,), (4,)]):
+        found_by = in_parallel(lambda ranks, ways: warned(lines, ranks, **ways), self.WAYS)
+        for found in found_by:
             self.assertEqual(len(found), 1, found)
             self.assertIn("Fix rbc/ib ib moves 4 atoms of type 2, 1 atom of type 3 inside cells "
                           f"(the first has atom ID {first})", found[0])

@@ -8,7 +8,7 @@ from unittest import mock
 
 import numpy as np
 
-from lammps_case import POTENTIALS, run, scene
+from lammps_case import POTENTIALS, SHEAR, run, scene
 
 FEW, MANY = 4, 16         # ranks
 SIDE, SPACING = 4, 3.2    # cells of a rank along each axis, and from one to the next
@@ -47,10 +47,14 @@ def row(ranks, runs, more=""):
 
 
 def sent(ranks, runs, more=""):
+    return counted(row(ranks, runs, more), ranks, places(ranks))
+
+
+def counted(script, ranks, files=None):
     """Bytes by the rank that sends or gets most, of each kind."""
     with mock.patch.dict(os.environ, LD_PRELOAD=os.environ["COUNT_MESSAGES_LIBRARY"],
                          COUNT_MESSAGES="counted"):
-        result = run(row(ranks, runs, more), ranks, files=places(ranks))
+        result = run(script, ranks, files=files)
     rows = [line.split() for line in result.path("counted").read_text().splitlines()]
     most = {words[0]: float(words[4]) for words in rows}
     return np.array([most[kind] for kind in KINDS])
@@ -76,6 +80,27 @@ class Row(unittest.TestCase):
             each.append(float(re.findall(r"memory allocation .* \| (\S+) Mbytes", printed)[-1]))
         print(f"\nMbytes of the largest rank: {each}")
         self.assertLess(abs(each[1] / each[0] - 1), 5e-4)
+
+
+class OtherAtoms(unittest.TestCase):
+    """Beside cells, 1000 for each rank: some of them begin inside a cell, which is looked for."""
+
+    def sent(self, ranks):
+        length = 12 * ranks
+        return counted(scene(
+            box=f"region box block 0 {length} 0 12 0 12", boundary="boundary p p p",
+            create_box="create_box 2 box angle/types 1", processors="processors * 1 1",
+            cells="\n".join(["mass * 1",
+                             *(f"rbc/create rbc single {12 * n + 6} 6 6" for n in range(ranks)),
+                             f"create_atoms 2 random {1000 * ranks} 5 box"]),
+            before="group cells type 1", membrane=SHEAR["membrane"].replace("all", "cells"),
+            fluid="fix flow all rbc/fluid dx 1.5 viscosity 1.5 density 1.025"), ranks)
+
+    def test_collective_messages(self):
+        few, many = (self.sent(ranks)[KINDS.index("collective")] for ranks in (2, 6))
+        print(f"\nbytes in collective calls: {few:.0f} on 2 ranks, {many:.0f} on 6")
+        atom = 24    # bytes of a position
+        self.assertLess(many - few, 0.1 * 4000 * atom)
 
 
 if __name__ == "__main__":
