@@ -38,7 +38,7 @@ PairRBCJKR::PairRBCJKR(LAMMPS *lmp) :
   manybody_flag = 1;
   no_virial_fdotr_compute = 1;
   centroidstressflag = CENTROID_NOTAVAIL;
-  comm_reverse_off = 3;
+  comm_reverse = comm_reverse_off = 3;    // comm_style tiled uses the first without newton, too
   nextra = 1;
   pvector = &adhered_area;
 }

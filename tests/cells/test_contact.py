@@ -72,7 +72,8 @@ class Forces(unittest.TestCase):
                 (2, "newton on", "0 0 0"), (4, "newton off", "0 0 0"), (8, "newton on", "3 1 2"),
                 (1, "newton off", "6 6 6"), (1, "newton on", "6 0 0"), (4, "newton on", "6 6 6"),
                 (4, "newton off", "0 6 7"), (2, "newton off on", "6 0 6"),
-                (2, "newton on", "-30 17 40")):
+                (2, "newton on", "-30 17 40"), (4, "newton off\ncomm_style tiled", "0 6 7"),
+                (4, "newton on\ncomm_style tiled", "0 6 7")):
             with self.subTest(ranks=ranks, newton=newton, move=move):
                 result = run(contact(newton=newton, last=f"displace_atoms all move {move}"), ranks)
                 np.testing.assert_allclose(result.dump().forces(), f, atol=1e-12 * abs(f).max(),
