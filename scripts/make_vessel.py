@@ -36,7 +36,8 @@ from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D
 
 import vessel_network
 
-CENTRELINE = 400      # points along it
+CENTRELINE = 400      # points along it at the least,
+APART = 0.05          # and so far apart, in radii: a tube of spheres is a 3e-4 narrower at the most
 MOST_TRIANGLES = 2e7
 MOST_CELLS = 5e7      # of the grid around a network: some 4 GB at most, for a moment
 SIZES = {             # that only some shapes have
@@ -97,7 +98,8 @@ def fork(options):
     """Points and triangles: a contour of the distance from the walls of both branches, blended
     where they meet."""
     length, parent, daughter = options.length, options.diameter / 2, options.daughter_diameter / 2
-    s = np.linspace(-parent, length + parent, CENTRELINE)
+    count = max(CENTRELINE, math.ceil((length + 2 * parent) / (APART * min(parent, daughter))) + 1)
+    s = np.linspace(-parent, length + parent, count)
     part = rise((s / length - 0.1) / 0.3) * rise((0.9 - s / length) / 0.3)
     centres = np.stack([s, options.distance / 2 * part], axis=-1)
     radii = parent + (daughter - parent) * part
@@ -110,12 +112,15 @@ def fork(options):
     x, y, z = (np.arange(n) * h - (0 if d == 0 else (n - 1) * h / 2)
                for d, (n, h) in enumerate(zip(counts, spacing)))
     flat = np.empty((2, len(z), len(y), len(x)))
-    for branch, side in enumerate((1, -1)):
-        for j, row in enumerate(y):
-            square = (x[:, None] - centres[:, 0])**2 + (row - side * centres[:, 1])**2
-            for k, height in enumerate(z):
-                flat[branch, k, j] = (np.sqrt(square + height**2) - radii).min(axis=1)
     blend = BLEND * options.diameter
+    for here, near in pieces(x, s, max(parent, daughter) + blend + 2 * step):
+        for branch, side in enumerate((1, -1)):
+            for j, row in enumerate(y):
+                square = ((x[here, None] - centres[near, 0])**2
+                          + (row - side * centres[near, 1])**2)
+                for k, height in enumerate(z):
+                    flat[branch, k, j, here] = (np.sqrt(square + height**2)
+                                                - radii[near]).min(axis=1)
     nearer = np.maximum(blend - np.abs(flat[0] - flat[1]), 0) / blend
     field = flat.min(axis=0) - nearer**2 / 4 * blend * blending(x, length)
     image = vtkImageData()
@@ -132,6 +137,15 @@ def fork(options):
     return (vtk_to_numpy(surface.GetPoints().GetData()).astype(float),
             vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)[:, ::-1]
             .astype(int))
+
+
+def pieces(x, s, reach):
+    """Pieces of x, and of s what is within reach of each."""
+    for start in np.arange(x[0], x[-1] + 1e-9 * reach, 4 * reach):
+        here = np.flatnonzero((x >= start) & (x < start + 4 * reach))
+        if len(here):
+            near = np.flatnonzero((s >= x[here[0]] - reach) & (s <= x[here[-1]] + reach))
+            yield slice(here[0], here[-1] + 1), slice(near[0], near[-1] + 1)
 
 
 def blending(x, length):

@@ -96,6 +96,16 @@ class Vessel(unittest.TestCase):
         off = np.hypot(abs(middle[:, 1]) - 12, middle[:, 2])
         np.testing.assert_allclose(off, daughter / 2, atol=0.05)
 
+    def test_a_long_bifurcation_is_as_wide_as_a_short_one(self):
+        radii = []
+        for length in (60, 1200):
+            corners = make("bifurcation", "--length", length, "--diameter", 10, "--edge", 1.25)
+            x, *off = corners.reshape(-1, 3).T
+            radii.append(np.hypot(*off)[x < 0.09 * length])
+        # chords of the grid are within a circle
+        np.testing.assert_allclose(radii[1].mean(), radii[0].mean(), rtol=2e-3)
+        self.assertGreater(radii[1].min(), radii[0].min() - 0.01)
+
     def test_bad_sizes(self):
         for words, message in ((("tube", "--diameter", -1, "x.stl"), "--diameter -1.0 must be > 0"),
                                (("tube", "--length", "inf", "x.stl"),
