@@ -60,14 +60,20 @@ DrivenFlow *FixRBCPort::driven_flow() const
   return flow ? &flow->driven_flow() : nullptr;
 }
 
+DrivenFlow *FixRBCPort::flow_with_port() const
+{
+  DrivenFlow *const flow = driven_flow();
+  return flow && flow->ports() && flow->ports()->has(&opening) ? flow : nullptr;
+}
+
 /* ----------------------------------------------------------------------
    rate, mean pressure, volume
 ------------------------------------------------------------------------- */
 
 double FixRBCPort::compute_vector(int n)
 {
-  DrivenFlow *const flow = driven_flow();
-  if (!flow || !flow->ports()) return 0;
+  DrivenFlow *const flow = flow_with_port();
+  if (!flow) return 0;
   if (n == 0) return flow->ports()->rate(&opening);
   return n == 1 ? flow->port_pressure(&opening) : flow->port_volume(&opening);
 }
@@ -76,8 +82,8 @@ double FixRBCPort::compute_vector(int n)
 
 double FixRBCPort::memory_usage()
 {
-  const DrivenFlow *const flow = driven_flow();
-  return flow && flow->ports() ? static_cast<double>(flow->ports()->bytes(&opening)) : 0;
+  const DrivenFlow *const flow = flow_with_port();
+  return flow ? static_cast<double>(flow->ports()->bytes(&opening)) : 0;
 }
 
 /* ----------------------------------------------------------------------
@@ -87,8 +93,7 @@ double FixRBCPort::memory_usage()
 void FixRBCPort::write_restart(FILE *fp)
 {
   std::vector<double> memory;
-  DrivenFlow *const flow = driven_flow();
-  if (flow && flow->ports()) memory = flow->port_memory();
+  if (DrivenFlow *const flow = flow_with_port()) memory = flow->port_memory();
   if (comm->me != 0) return;
   const double count = static_cast<double>(memory.size());
   const int size = static_cast<int>((1 + memory.size()) * sizeof(double));

@@ -35,6 +35,8 @@ class FixRBCPort : public Fix, public FluidClient {
  private:
   std::string fluid;
   Port opening;
+
+  class DrivenFlow *flow_with_port() const;    ///< null until a run has begun with this port
 };
 
 }    // namespace LAMMPS_NS

@@ -22,6 +22,9 @@ class FlowPorts : protected Pointers {
   /// At the start of a run, collective. There must be a port.
   void connect(std::vector<Port *> ports);
 
+  /// Whether a run has begun since this port was defined.
+  bool has(const Port *port) const { return place(port) < ports_.size(); }
+
   /// Call when regions or the decomposition of the flow may have changed: cells are found anew with
   /// the next solve.
   void forget()
