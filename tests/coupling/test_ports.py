@@ -142,6 +142,21 @@ class Pressures(unittest.TestCase):
         for name, rate in zip(names, (0.7, -0.4, -0.3)):
             self.assertAlmostEqual(held[f"f_{name}[1]"][0], rate, delta=1e-3)
 
+    def test_another_one_at_the_start_of_a_run(self):
+        ports = dict(variables="variable p equal 0.05",
+                     inlet="fix in all rbc/port flow region inlet pressure v_p",
+                     outlet="fix out all rbc/port flow region outlet pressure 0.02")
+        begin = tube(*SMALL, **ports, run="run 0\nvariable p equal 0.08\nrun 0\nrun 1\n"
+                                          "write_restart r\nclear")
+        made = ("units", "atom_style", "boundary", "region box", "create_box", "rbc/surface",
+                "mass", "run", "variable p", "write_restart", "clear")
+        after = "\n".join(line for line in begin.splitlines() if not line.startswith(made))
+        tables = run(f"{begin}\nread_restart r\nvariable p equal 0.14\n{after}\nrun 0\n").tables()
+        rate = tables[0]["f_in[1]"][0] / 0.03
+        for table, pressure in zip(tables, (0.05, 0.08, 0.08, 0.14)):
+            np.testing.assert_allclose(table["f_in[2]"], pressure, atol=1e-6)
+            np.testing.assert_allclose(table["f_in[1]"], rate * (pressure - 0.02), rtol=1e-4)
+
     def test_a_stream_much_faster_than_what_probes(self):
         """Half of what enters in the middle leaves at each end. The error of the wall, a part of
         the fastest flow, does not drown the response to the flows that tell it."""

@@ -77,6 +77,21 @@ TEST(LinearControl, KnowsAResistance)
   EXPECT_FALSE(takes_work(0, 0, 1, -1));
 }
 
+/// Where the disturbance stays, what it is asked for by a shift is there at once, and is kept.
+TEST(LinearControl, IsShifted)
+{
+  LinearControl control;
+  control.probe(3, 1);
+  while (control.probing()) control.adjust(system(control.inputs(), 2), {1, 2, 3});
+  control.shift({0.5, -4, 7});
+  const Numbers wanted{1.5, -2, 10};
+  for (int step = 0; step < 3; ++step) {
+    const Numbers values = system(control.inputs(), 2);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(values[i], wanted[i], 1e-12);
+    control.adjust(values, wanted);
+  }
+}
+
 TEST(LinearControl, GoesOnFromItsState)
 {
   LinearControl control, other;

@@ -24,6 +24,10 @@ static constexpr double SAME = 1.0e-9;
 
 static constexpr double SAME_PRESSURE = 1.0e-3;
 
+// Values of a variable may differ by round-off after a restart, in parts of these pressures.
+
+static constexpr double SAME_WANTED = 1.0e-9;
+
 // In a port the flow along the wall grows, and that in the layer which the kernel blurs with it.
 // What the layer needs beyond the wall must be supplied there: otherwise it passes the wall. These
 // spreads were found by trial, in tubes 20 and 40 cells wide (examples/ports).
@@ -42,6 +46,7 @@ void FlowPorts::connect(std::vector<Port *> ports)
   if (ports != ports_) {
     end_.assign(ports.size(), 0.0);
     known_ = holding_ = false;
+    wanted_.clear();
   }
   ports_ = std::move(ports);
   find_roles();
@@ -200,10 +205,17 @@ std::vector<double> FlowPorts::of_controlled(const std::vector<double> &values) 
   return some;
 }
 
-void FlowPorts::control()
+std::vector<double> FlowPorts::wanted_now() const
 {
   std::vector<double> wanted = of_controlled(given_);
   for (double &pressure : wanted) pressure *= force->ftm2v;
+  return wanted;
+}
+
+void FlowPorts::control()
+{
+  const std::vector<double> wanted = wanted_now();
+  if (!holding_) wanted_ = wanted;
   const bool learns = is_measured_ && control_.probing();
   if (is_measured_) control_.adjust(measured_, wanted);
   is_measured_ = false;
@@ -249,8 +261,23 @@ bool FlowPorts::agrees(const std::vector<double> &pressures) const
   return apart <= SAME_PRESSURE * control_.effect();
 }
 
+bool FlowPorts::follow_wanted()
+{
+  std::vector<double> change = wanted_now();
+  if (wanted_.size() != change.size()) return false;    // of a file that has none
+  double largest = 0;
+  for (std::size_t n = 0; n < change.size(); ++n) {
+    change[n] -= wanted_[n];
+    largest = std::max(largest, std::abs(change[n]));
+  }
+  if (largest <= SAME_WANTED * control_.effect()) return false;
+  control_.shift(change);
+  holding_ = false;
+  return true;
+}
+
 /* ----------------------------------------------------------------------
-   measured pressures, and what the control knows
+   measured pressures, what the control knows, and the pressures wanted then
 ------------------------------------------------------------------------- */
 
 std::vector<double> FlowPorts::control_state(const std::vector<double> &pressures) const
@@ -259,6 +286,7 @@ std::vector<double> FlowPorts::control_state(const std::vector<double> &pressure
   std::vector<double> state = holding_ ? measured_ : of_controlled(pressures);
   const std::vector<double> known = control_.state();
   state.insert(state.end(), known.begin(), known.end());
+  state.insert(state.end(), wanted_.begin(), wanted_.end());
   return state;
 }
 
@@ -266,12 +294,14 @@ void FlowPorts::restore_control()
 {
   const std::vector<double> state = std::exchange(ports_.front()->remembered, {});
   for (Port *port : ports_) port->remembered.clear();    // the same, or of other ports
-  const std::size_t count = controlled_.empty() ? 0 : controlled_.size() - 1;
-  if (control_.inputs().size() != count) known_ = false;
-  if (!controls() || state.size() < count) return;
-  const auto first = state.begin() + static_cast<std::ptrdiff_t>(count);
-  if (!control_.restore(static_cast<int>(count), {first, state.end()})) return;
+  const auto count = static_cast<std::ptrdiff_t>(controlled_.empty() ? 0 : controlled_.size() - 1);
+  if (control_.inputs().size() != std::size_t(count)) known_ = false;
+  const auto size = static_cast<std::ptrdiff_t>(state.size()), most = count * (count + 4);
+  if (!controls() || (size != most && size != most - count)) return;    // without those wanted
+  const auto first = state.begin() + count, last = first + count * (count + 2);
+  control_.restore(static_cast<int>(count), {first, last});
   measured_.assign(state.begin(), first);
+  wanted_.assign(last, state.end());
   known_ = holding_ = true;
 }
 

@@ -61,6 +61,10 @@ class FlowPorts : protected Pointers {
   void hold_measured(const std::vector<double> &pressures);
   bool is_holding() const { return holding_; }
   bool agrees(const std::vector<double> &pressures) const;
+
+  /// Where these agree: whether other pressures are wanted now than when they were measured. If so
+  /// none are held any more, and the next evaluate() gives the rates that should cause those.
+  bool follow_wanted();
   std::vector<double> control_state(const std::vector<double> &pressures) const;
 
   /// Of the last solve; zero before the first.
@@ -97,13 +101,14 @@ class FlowPorts : protected Pointers {
   bool known_ = false;          // start_control() was called, or a restart file knows the response
   bool is_measured_ = false;    // since the last change of the rates
   bool holding_ = false;        // measured_ counts from the next step on
-  std::vector<double> measured_;
+  std::vector<double> measured_, wanted_;    // the latter when the former were measured
 
   std::size_t place(const Port *port) const;
   void find_roles();
   void check_determined() const;
   void check_rates() const;
   void control();
+  std::vector<double> wanted_now() const;
   std::vector<double> of_controlled(const std::vector<double> &values) const;
   void restore_control();
   void find_sources(const fluid::Flow &flow, const FlowInside &inside);

@@ -24,8 +24,10 @@ void DrivenFlow::continue_port_control()
 bool DrivenFlow::probe_ports()
 {
   if (ports_->is_holding()) {
-    if (ports_->agrees(port_pressures())) return false;
-    start_port_control();    // walls, cells or ports are others
+    if (!ports_->agrees(port_pressures()))
+      start_port_control();    // walls, cells or ports are others
+    else if (!ports_->follow_wanted())
+      return false;
     set_time_now();
     return true;
   }

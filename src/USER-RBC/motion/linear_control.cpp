@@ -104,6 +104,12 @@ void LinearControl::adjust(const Numbers &measured, const Numbers &wanted)
   inputs_ = solved(response_, left);
 }
 
+void LinearControl::shift(const Numbers &change)
+{
+  const Numbers more = solved(response_, change);
+  for (int i = 0; i < count(); ++i) inputs_[i] += more[i];
+}
+
 LinearControl::Numbers LinearControl::state() const
 {
   Numbers state = inputs_;

@@ -25,6 +25,9 @@ class LinearControl {
   /// wanted ones; the first count + 1 calls of a probe learn disturbance and responses.
   void adjust(const Numbers &measured, const Numbers &wanted);
 
+  /// Once responses are known: changes the inputs by what should change the quantities by this.
+  void shift(const Numbers &change);
+
   /// Whether any inputs and the quantities that they cause have a positive product in sum: so flows
   /// and pressures have where flow takes work. Call once the responses are known.
   bool takes_work() const;
