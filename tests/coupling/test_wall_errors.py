@@ -45,6 +45,22 @@ class Spacing(unittest.TestCase):
         self.assertEqual(len(self.warnings(3, 3, steps="run 1\nrun 1")), 1)
 
 
+class Iterations(unittest.TestCase):
+    """Of a flow that does not change there are none after the start of a run."""
+
+    def warnings(self, wall, steps):
+        box = (8, 8, 8)
+        printed = walls(box, tube(box, 3), drive="body 1e-5 0 0", wall=wall, run=steps).printed
+        return re.findall(r"WARNING: Fix rbc/wall w reached its maxiter of 2 at the start of the "
+                          r"run, with a slip of (\S+)", printed)
+
+    def test_too_few_of_them_at_the_start_of_a_run(self):
+        for steps in ("run 0", "run 3"):
+            slip, = self.warnings("tol 1e-9 maxiter 2", steps)
+            self.assertGreater(float(slip), 1e-9)
+            self.assertEqual(self.warnings("tol 1e-9 maxiter 200", steps), [])
+
+
 class Errors(unittest.TestCase):
     BOX = (8, 8, 8)
 

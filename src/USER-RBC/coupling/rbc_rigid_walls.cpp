@@ -278,6 +278,11 @@ void RigidWalls::warn() const
   if (unconverged_ > 0)
     error->warning(FLERR, "{} reached its maxiter of {} in {} evaluations", first()->style(),
                    first()->settings().max_solves, unconverged_);
+  const bool none_since = evaluations_ == first_evaluation_;
+  if (none_since && !outcome_.converged && outcome_.solves >= first()->settings().max_solves)
+    error->warning(FLERR,
+                   "{} reached its maxiter of {} at the start of the run, with a slip of {:.3g}",
+                   first()->style(), first()->settings().max_solves, outcome_.slip);
 }
 
 std::size_t RigidWalls::bytes() const
