@@ -72,8 +72,7 @@ int FixRBCWall::setmask()
 
 void FixRBCWall::init()
 {
-  fluid_fix = dynamic_cast<FixRBCFluid *>(modify->get_fix_by_id(fluid));
-  if (!fluid_fix)
+  if (!fluid_fix())
     error->all(FLERR, "{}: there is no fix rbc/fluid with ID {}", wall.style(), fluid);
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix rbc/wall cannot be used with run_style respa");
@@ -89,7 +88,7 @@ void FixRBCWall::setup_post_neighbor()
   wall.start_run();
   const bigint atoms = group->count(igroup);
   if (atoms != atoms_checked)
-    warn_of_coarse_wall(lmp, wall, fluid_fix->driven_flow().settings().cells);
+    warn_of_coarse_wall(lmp, wall, fluid_fix()->driven_flow().settings().cells);
   atoms_checked = atoms;
   post_neighbor();
 }
@@ -99,13 +98,21 @@ void FixRBCWall::post_neighbor()
   wall.atoms_migrated();
 }
 
+/* ---------------------------------------------------------------------- */
+
+FixRBCFluid *FixRBCWall::fluid_fix() const
+{
+  return dynamic_cast<FixRBCFluid *>(modify->get_fix_by_id(fluid));
+}
+
 /* ----------------------------------------------------------------------
    of the fluid, of which this is one; null before a run has begun
 ------------------------------------------------------------------------- */
 
 const RigidWalls *FixRBCWall::all_walls() const
 {
-  return fluid_fix ? fluid_fix->driven_flow().walls() : nullptr;
+  FixRBCFluid *const fix = fluid_fix();
+  return fix ? fix->driven_flow().walls() : nullptr;
 }
 
 /* ----------------------------------------------------------------------

@@ -40,12 +40,12 @@ class FixRBCWall : public Fix, public FluidClient {
  private:
   std::string fluid;
   WallGroup wall;
-  class FixRBCFluid *fluid_fix = nullptr;
   bigint atoms_checked = 0;    // whose spacing is known
   bigint measured = -1;        // evaluation of the fluid
   std::array<double, 6> total{};
 
   WallGroup::Settings parse(int, char **);
+  class FixRBCFluid *fluid_fix() const;    ///< null once it is deleted
   const class RigidWalls *all_walls() const;
 };
 

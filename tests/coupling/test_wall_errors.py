@@ -1,7 +1,9 @@
 """What fix rbc/wall refuses, and the walls that it warns of."""
 
+import os
 import re
 import unittest
+from unittest.mock import patch
 
 import numpy as np
 
@@ -59,6 +61,18 @@ class Iterations(unittest.TestCase):
             slip, = self.warnings("tol 1e-9 maxiter 2", steps)
             self.assertGreater(float(slip), 1e-9)
             self.assertEqual(self.warnings("tol 1e-9 maxiter 200", steps), [])
+
+
+class WithoutFluid(unittest.TestCase):
+    def test_a_wall_whose_fluid_was_deleted_has_no_numbers(self):
+        box = (8, 8, 8)
+        ask = "print 'wall $(f_w[1]) $(f_w[7]) $(f_w[9])'"
+        with patch.dict(os.environ, MALLOC_PERTURB_="165"):    # what is freed is filled with it
+            printed = walls(box, tube(box, 3), drive="body 1e-5 0 0",
+                            run=f"run 0\n{ask}\nunfix flow\n{ask}\ninfo memory").printed
+        before, after = re.findall(r"^wall (\S+) (\S+) (\S+)$", printed, re.MULTILINE)
+        self.assertGreater(float(before[0]), 0)
+        self.assertEqual(after, ("0", "0", "0"))
 
 
 class Errors(unittest.TestCase):
