@@ -48,6 +48,8 @@ void FixRBCStream::find_feed()
   const double share = static_cast<double>(points.size()) / std::pow(SAMPLES, 3);
   room = hematocrit * share * feed_length.prod() / membranes->shape().volume;
   placement->confine(*feed, feed_lo, feed_length);
+  const Vec3 periodic(domain->xperiodic, domain->yperiodic, domain->zperiodic);
+  placement->repeat(periodic.cwiseProduct(Vec3(domain->prd)));
   if (along < 0) return;
   check_stretch(points, vessel);
   const std::vector<double> state = stretch ? stretch->state() : remembered;

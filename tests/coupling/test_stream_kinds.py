@@ -1,13 +1,15 @@
-"""fix rbc/stream: cells of two kinds enter a tube; a region that is wider than the vessel."""
+"""fix rbc/stream: cells of two kinds enter a tube; a region that is wider than the vessel, and one
+that goes on through periodic sides."""
 
 import unittest
 
 import numpy as np
 
-from lammps_case import dump_line, run
+from lammps_case import dump_line, run, scene
+from rbc.surface_distances import pair_distances
 from test_ports import TUBE
-from test_stream import (CONTACT, DUMP, EMPTY, GAP, MEMBRANE, RADIUS, SIDE, STREAM, cells_of,
-                         stream, stream_fix)
+from test_stream import (CONTACT, DUMP, EMPTY, GAP, MEMBRANE, RADIUS, SIDE, STREAM, TRIANGLES,
+                         cells_of, stream, stream_fix)
 
 
 class Kinds(unittest.TestCase):
@@ -56,6 +58,40 @@ class Surfaces(unittest.TestCase):
                 self.assertLess(np.hypot(x[:, 1] - SIDE / 2, x[:, 2] - SIDE / 2).max(),
                                 RADIUS - GAP + 1e-9)
         self.assertGreaterEqual(count, 3)
+
+
+class Slit(unittest.TestCase):
+    """Between walls across z, periodic along y."""
+    SIZE = np.array([48.0, 16.0, 20.0])
+
+    def test_new_cells_fit_through_periodic_sides(self):
+        box = " ".join(f"0 {size}" for size in self.SIZE)
+        stream = STREAM.replace("0.2 molecule", "0.5 molecule").replace(" outlet out last", "")
+        lines = dict(
+            TUBE, **{**EMPTY, "run": "run 20", "timestep": "timestep 100"},
+            box=f"region box block {box}",
+            vessel="region tube block 4 44 INF INF 4 16\n"
+                   "rbc/surface tube type 2 spacing 1.4 mass 1.0",
+            regions="region inlet block INF 12 INF INF INF INF\n"
+                    "region outlet block 36 INF INF INF INF INF\n"
+                    "region feed block 14 34 INF INF 4.3 15.7",
+            inlet=TUBE["inlet"].replace("1.0", "1.2"),
+            wall="fix wall wall rbc/wall flow tol 1e-2\nfix mem cells rbc/membrane rbc "
+                 "mooney-rivlin 1e-3 1e-3 1e-3 bending 1e-7",
+            ib=f"fix ib cells rbc/ib flow integrator midpoint\n{stream} attempts 2000",
+            thermo="thermo_style custom step f_stream[1]",
+            dump=dump_line(1, columns=DUMP).replace("dump atoms all", "dump atoms cells"))
+        frames = [cells_of(frame) for frame in run(scene(lines)).dump().frames]
+        images = 0
+        for before, now in zip(frames, frames[1:]):
+            for new in set(now) - set(before):
+                for other in set(now) - {new}:
+                    pair = [(now[number], TRIANGLES) for number in (new, other)]
+                    gaps = [pair_distances(pair, self.SIZE, [False, wraps, False], 2.0)
+                            .min(initial=2) for wraps in (False, True)]
+                    self.assertGreater(gaps[1], GAP - 1e-9)
+                    images += gaps[1] < gaps[0]
+        self.assertGreater(images, 0)
 
 
 if __name__ == "__main__":

@@ -198,6 +198,44 @@ TEST(CellPlacement, TellsOfCellsOfAnyShapeWhetherTheyKeepAGap)
   EXPECT_TRUE(placement.fits(shape.vertices, gap));
 }
 
+/// In an enclosure that is periodic along y: also from images, and from their own.
+TEST(CellPlacement, CellsKeepTheGapFromImages)
+{
+  const SurfaceTemplate shape = disc(3).surface();
+  const double gap = 0.05;
+  const Vec3 lo(0, 0, 0), length(3, 3.5, 3), period(0, 3.5, 0);
+  const Block block(lo - 9 * Vec3::UnitY(), length + 18 * Vec3::UnitY());
+  CellPlacement placement(shape, gap, 3);
+  placement.confine(block, lo, length);
+  placement.repeat(period);
+  const Vec3 point(1.5, 3.4, 1.5);
+  placement.avoid_point(point);
+
+  const rbc::RigidShape rigid(shape, 1);
+  std::vector<Vertices> found;
+  int across = 0;
+  for (int n = 0; n < 4; ++n) {
+    const auto place = placement.find(20000);
+    ASSERT_TRUE(place);
+    Vertices x = vertices_at(shape, *place);
+    const rbc::RigidCell cell{&rigid, place->centre, place->rotation, 1};
+    for (const int image : {-1, 0, 1}) EXPECT_GE(surface_gap(point + image * period, cell, 1), gap);
+    for (const Vec3 &vertex : x)
+      if (vertex[1] < 0 || vertex[1] > length[1]) {
+        ++across;
+        break;
+      }
+    for (const Vertices &other : found)
+      for (const int image : {-1, 0, 1}) {
+        Vertices there = other;
+        for (Vec3 &vertex : there) vertex += image * period;
+        EXPECT_GE(least_distance(shape, x, there), gap);
+      }
+    found.push_back(std::move(x));
+  }
+  EXPECT_GT(across, 1);
+}
+
 TEST(CellPlacement, SurfacesOfARowDoNotCountForEachOther)
 {
   const SurfaceTemplate shape = disc(2).surface();

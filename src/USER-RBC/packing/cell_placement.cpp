@@ -112,7 +112,36 @@ CellPlacement::Placed::Placed(Surface surface_in, double row_in) :
 
 void CellPlacement::avoid_surface(Surface surface, double row)
 {
+  const std::size_t first = placed_.size();
   placed_.emplace_back(std::move(surface), row);
+  for (const Vec3 &shift : images(placed_[first].centre, placed_[first].radius)) {
+    Placed image = placed_[first];
+    image.centre += shift;
+    for (Vec3 &vertex : image.surface.vertices) vertex += shift;
+    placed_.push_back(std::move(image));
+  }
+}
+
+void CellPlacement::avoid_point(const Vec3 &point)
+{
+  points_.push_back(point);
+  for (const Vec3 &shift : images(point, 0)) points_.push_back(point + shift);
+}
+
+/// Shifts to those images that may be in the way of a cell whose centre lies where cells appear.
+std::vector<Vec3> CellPlacement::images(const Vec3 &centre, double radius) const
+{
+  const double far = radius + reach();
+  const auto is_near = [&](const Vec3 &x) {
+    return ((x - lo_).array() > -far).all() && ((x - lo_ - length_).array() < far).all();
+  };
+  std::vector<Vec3> shifts;
+  for (int n = 0; n < 27; ++n) {
+    const Vec3 way(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1), shift = way.cwiseProduct(period_);
+    const bool goes = ((period_.array() > 0) || (way.array() == 0)).all();
+    if (goes && n != 13 && is_near(centre + shift)) shifts.push_back(shift);
+  }
+  return shifts;
 }
 
 bool CellPlacement::fits(std::vector<Vec3> vertices, double gap, double row) const

@@ -35,12 +35,16 @@ class CellPlacement {
   /// Vertices stay in an enclosure, which lies in that part of space.
   void confine(const Enclosure &enclosure, const Vec3 &lo, const Vec3 &length);
 
+  /// What is there is there again, so far away along each direction; 0: it is not. Call before the
+  /// first surface.
+  void repeat(const Vec3 &period) { period_ = period; }
+
   // What is there.
 
   void clear();
   /// Surfaces of one row are as far from each other as it may be, and do not count for each other.
   void avoid_surface(Surface surface, double row = no_row);
-  void avoid_point(const Vec3 &point) { points_.push_back(point); }
+  void avoid_point(const Vec3 &point);
 
   /// A place at which a cell fits, if one of the next draws is such a place, up to `draws` of them.
   /// A cell placed there is avoided from then on.
@@ -72,10 +76,11 @@ class CellPlacement {
   unsigned seed_;
   std::int64_t drawn_ = 0;
   const Enclosure *enclosure_ = nullptr;
-  Vec3 lo_ = Vec3::Zero(), length_ = Vec3::Zero();
+  Vec3 lo_ = Vec3::Zero(), length_ = Vec3::Zero(), period_ = Vec3::Zero();
   std::vector<Placed> placed_;
   std::vector<Vec3> points_;
 
+  std::vector<Vec3> images(const Vec3 &centre, double radius) const;
   std::mt19937_64 numbers(std::int64_t draw) const;
   std::optional<RigidCell> draw(std::int64_t number) const;
   bool fits(const RigidCell &cell) const;
