@@ -79,6 +79,20 @@ TEST(StreamLedger, CellsThatLeftCountWithTheirVolume)
   EXPECT_NEAR(ledger.left().hematocrit(), 6.0 / 10, 1e-15);
 }
 
+/// The volume of a run is that of its own rates, whatever those of the run before were.
+TEST(StreamLedger, RatesMayJumpBetweenRuns)
+{
+  StreamLedger ledger(0.2, 1);
+  ledger.start(1, {2});
+  ledger.pass(3, 1, {2});
+  ledger.start(7, {4});
+  ledger.pass(2, 7, {4});
+  ledger.start(0, {0});
+  ledger.pass(5, 0, {0});
+  EXPECT_NEAR(ledger.inlet().volume, 3 * 1 + 2 * 7, 1e-14);
+  EXPECT_NEAR(ledger.outlet(0).volume, 3 * 2 + 2 * 4, 1e-14);
+}
+
 TEST(StreamLedger, GoesOnFromItsState)
 {
   StreamLedger one(0.2, 1), other(0.2, 1);
@@ -88,7 +102,7 @@ TEST(StreamLedger, GoesOnFromItsState)
   one.let_in(1);
   EXPECT_TRUE(other.restore(one.state()));
   for (StreamLedger *ledger : {&one, &other}) {
-    ledger->start(100, {100});    // known already
+    ledger->start(5 * (1 + 1e-12), {6});    // known already
     ledger->pass(1.3, 9, {8});
     ledger->let_out(0);
   }

@@ -22,17 +22,31 @@ double forward_volume(double dt, double before, double now)
   return most > 0 ? dt * most * most / (2 * std::abs(now - before)) : 0;
 }
 
+/// Within round-off.
+bool are_same(const std::vector<double> &rates, const std::vector<double> &others)
+{
+  constexpr double same = 1e-9;    // of the largest
+  if (rates.size() != others.size()) return false;
+  double largest = 0, apart = 0;
+  for (std::size_t n = 0; n < rates.size(); ++n) {
+    largest = std::max(largest, std::abs(rates[n]));
+    apart = std::max(apart, std::abs(rates[n] - others[n]));
+  }
+  return apart <= same * largest;
+}
+
 }    // namespace
 
 void StreamLedger::start(double inlet, const std::vector<double> &outlets)
 {
-  if (rates_.empty()) rates_ = together(inlet, outlets);
+  const std::vector<double> now = together(inlet, outlets);
+  if (!are_same(now, rates_)) rates_ = now;
 }
 
 double StreamLedger::pass(double dt, double inlet, const std::vector<double> &outlets)
 {
-  start(inlet, outlets);
   const std::vector<double> now = together(inlet, outlets);
+  if (rates_.empty()) rates_ = now;
   const double entered = forward_volume(dt, rates_[0], now[0]);
   inlet_.volume += entered;
   const double due = hematocrit_ * entered / cell_volume_;

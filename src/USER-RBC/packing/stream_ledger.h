@@ -25,7 +25,8 @@ class StreamLedger {
   void set_cell_volume(double volume) { cell_volume_ = volume; }
 
   /// The rates at which volume enters through the inlet and leaves through each outlet, at the
-  /// start. Does nothing if they are known, from a step or another ledger's state.
+  /// start of a run. Does nothing if they are those of the last step, or of another ledger's state,
+  /// but for round-off.
   void start(double inlet, const std::vector<double> &outlets);
 
   /// A step of time dt that ends with these rates. They are linear in it. Returns how many cells
