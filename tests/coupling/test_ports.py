@@ -192,7 +192,8 @@ class Added(unittest.TestCase):
     def test_a_port_has_no_numbers_before_its_first_run(self):
         ask = "print 'side $(f_side[1]) $(f_side[2]) $(f_side[3])'"
         lines = ["run 0", "region middle block 19 29 INF INF INF INF",
-                 "fix side all rbc/port flow region middle flow 0", ask, "info memory", "run 0", ask]
+                 "fix side all rbc/port flow region middle flow 0", ask, "info memory", "run 0",
+                 ask]
         printed = run(tube(*SMALL, run="\n".join(lines))).printed
         before, after = re.findall(r"^side (\S+) (\S+) (\S+)$", printed, re.MULTILINE)
         self.assertEqual(before, ("0", "0", "0"))
