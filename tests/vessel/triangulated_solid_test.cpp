@@ -115,6 +115,48 @@ TEST(TriangulatedSolid, IsTheSameTurnedInsideOut)
   }
 }
 
+/// A surface, scaled and moved, or turned inside out.
+std::vector<Triangle> placed(std::vector<Triangle> triangles, double scale, const Vec3 &place,
+                             bool turned = false)
+{
+  for (Triangle &triangle : triangles) {
+    for (Vec3 &x : triangle) x = place + scale * x;
+    if (turned) std::swap(triangle[1], triangle[2]);
+  }
+  return triangles;
+}
+
+TEST(TriangulatedSolid, SurfacesThatAreNotJoined)
+{
+  const std::vector<Triangle> ball = test::triangles_of(test::icosphere(3));
+  const Vec3 here = Vec3::Zero(), beside(9, 1, 0), within(0.5, 0, 0);
+  const auto together = [&](std::initializer_list<std::vector<Triangle>> parts) {
+    std::vector<Triangle> all;
+    for (const auto &part : parts) all.insert(all.end(), part.begin(), part.end());
+    return all;
+  };
+  const auto large = placed(ball, 4, here), cavity = placed(ball, 2, within, true),
+             core = placed(ball, 1, within);
+  for (const auto &good : {together({large, placed(ball, 2, beside)}), together({large, cavity}),
+                           together({large, cavity, core, placed(ball, 1, beside)})}) {
+    ASSERT_EQ(problem(good, test::open_space), "");
+    const TriangulatedSolid solid(good, test::open_space);
+    test::Random random(7);
+    for (int n = 0; n < 500; ++n) {
+      const Vec3 x = random.vector(-5, 12);
+      ASSERT_EQ(solid.contains(x), winding(x, good) > 0.5) << x.transpose();
+    }
+  }
+  const std::string turned = "oriented the other way than the rest", alike = "is oriented alike";
+  for (const auto &[bad, said] :
+       {std::pair(together({large, placed(ball, 2, beside, true)}), turned),
+        std::pair(together({placed(ball, 4, here, true), placed(ball, 2, beside)}), turned),
+        std::pair(together({large, core}), alike),
+        std::pair(together({large, cavity, placed(ball, 1, within, true)}), turned)})
+    EXPECT_NE(problem(bad, test::open_space).find(said), std::string::npos)
+        << problem(bad, test::open_space);
+}
+
 TEST(TriangulatedSolid, SaysWhatIsWrong)
 {
   const auto expect = [](const std::string &said, const std::string &part) {

@@ -1,6 +1,7 @@
 #include "vessel/triangulated_solid.h"
 
 #include "vessel/mesh_connectivity.h"
+#include "vessel/mesh_shells.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -33,6 +34,7 @@ TriangulatedSolid::TriangulatedSolid(std::vector<Triangle> triangles, const Pack
       triangles_, mesh.vertices(), [&mesh](int t, int c) { return mesh.vertex(t, c); },
       [&mesh](int t, int c) { return mesh.neighbor(t, c); });
   orient();
+  if (mesh.open() == std::array<bool, 3>{}) check_shells(triangles_, mesh);
   index();
   measure_centres();
 }
