@@ -5,7 +5,7 @@ import unittest
 import numpy as np
 
 from lammps_case import run
-from wall_case import AT_REST, BASE, OFFSET, PLATES, VISCOSITY, script, sphere, walls
+from wall_case import AT_REST, BASE, OFFSET, PLATES, VISCOSITY, script, sphere, tube, walls
 
 
 class Vessel(unittest.TestCase):
@@ -63,6 +63,17 @@ class Vessel(unittest.TestCase):
         self.assertAlmostEqual(last["f_flow[13]"] / 1.875e-4, 1, delta=1e-3)
         self.assertAlmostEqual(last["law"], 1, delta=0.006)
         self.assertLess(last["f_w[9]"], 3)
+
+    def test_another_rate_at_the_start_of_a_run(self):
+        box = (8, 8, 8)
+        result = walls(box, tube(box, 3), drive="inside tube mean x v_V",
+                       before="region tube cylinder x 4 4 3 INF INF\nvariable V equal 1e-3",
+                       thermo="thermo_style custom step f_flow[13] f_flow[19]",
+                       run="run 0\nvariable V equal 3e-3\nrun 0\nrun 1")
+        one, *others = result.tables()
+        for table in others:
+            np.testing.assert_allclose(table["f_flow[13]"], 3e-3, rtol=1e-3)
+            np.testing.assert_allclose(table["f_flow[19]"], 3 * one["f_flow[19]"][0], rtol=1e-2)
 
 
 class Sheets(unittest.TestCase):

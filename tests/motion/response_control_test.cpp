@@ -37,6 +37,20 @@ TEST(ResponseControl, FollowsAWantedValueThatChanges)
   }
 }
 
+/// Where the disturbance stays, what it is asked for by a shift is there at once, and is kept.
+TEST(ResponseControl, IsShifted)
+{
+  ResponseControl control;
+  control.probe(1);
+  const auto system = [](double input) { return 0.4 * input + 0.3; };
+  while (control.probing()) control.adjust(system(control.input()), 1);
+  control.shift(-3);
+  for (int step = 0; step < 3; ++step) {
+    EXPECT_NEAR(system(control.input()), -2, 1e-13);
+    control.adjust(system(control.input()), -2);
+  }
+}
+
 /// Off by the second difference of the disturbance; also where the response has changed since it
 /// was measured.
 TEST(ResponseControl, FollowsADisturbance)

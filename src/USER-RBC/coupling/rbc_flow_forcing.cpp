@@ -54,6 +54,14 @@ bool FlowForcing::agrees(double given) const
   return std::abs(given - measured_) <= SAME * std::abs(control_.effect());
 }
 
+bool FlowForcing::follow_wanted()
+{
+  if (wanted_ == *wanted_then_) return false;
+  control_.shift(wanted_ - *wanted_then_);
+  holding_ = false;
+  return true;
+}
+
 FlowForcing::State FlowForcing::control_state(double inside_velocity) const
 {
   const rbc::ResponseControl::State known = control_.state();
@@ -77,9 +85,10 @@ void FlowForcing::restore_control(const State &state)
 
 void FlowForcing::control()
 {
-  const double wanted = held_velocity_.value(lmp);
+  wanted_ = held_velocity_.value(lmp);
+  if (!holding_ || !wanted_then_) wanted_then_ = wanted_;    // a restart file does not have it
   const bool learns = is_measured_ && control_.probing();
-  if (is_measured_) control_.adjust(measured_, wanted);
+  if (is_measured_) control_.adjust(measured_, wanted_);
   is_measured_ = false;
   if (learns && !control_.probing() && !control_.takes_work())
     error->all(FLERR,

@@ -7,6 +7,7 @@
 #include "support/rbc_number_or_variable.h"
 
 #include <array>
+#include <optional>
 #include <string>
 
 namespace LAMMPS_NS {
@@ -53,6 +54,10 @@ class FlowForcing : protected Pointers {
   bool is_holding() const { return holding_; }
   bool agrees(double given) const;
 
+  /// Where it has: whether another velocity is wanted now than when it was measured. If so none is
+  /// held any more, and the next evaluate() gives the forcing that should cause that one.
+  bool follow_wanted();
+
   /// What is kept in restart files: 1 where the response is known, direction, 1 where the input is
   /// the mean velocity, input, response, disturbance, and `inside_velocity` unless a velocity is
   /// held.
@@ -91,6 +96,8 @@ class FlowForcing : protected Pointers {
   bool is_measured_ = false;    // since the last change of the input
   bool holding_ = false;        // measured_ counts from the next step on
   double measured_ = 0;
+  double wanted_ = 0;
+  std::optional<double> wanted_then_;    // when it was measured
 
   void control();
 };

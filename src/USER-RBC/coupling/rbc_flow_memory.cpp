@@ -62,8 +62,10 @@ bool DrivenFlow::probe_flow_rate()
   if (ports_ && ports_->controls()) return probe_ports();
   if (!controls_flow_rate()) return false;
   if (forcing_.is_holding()) {
-    if (forcing_.agrees(rate_inside())) return false;
-    start_control();    // walls, cells or forcing are others
+    if (!forcing_.agrees(rate_inside()))
+      start_control();    // walls, cells or forcing are others
+    else if (!forcing_.follow_wanted())
+      return false;
     set_time_now();
     return true;
   }

@@ -40,6 +40,9 @@ class ResponseControl {
     disturbance_ = state[2];
   }
 
+  /// Once the response is known: changes the input by what should change the quantity by this.
+  void shift(double change) { input_ += change / response_; }
+
   /// Takes the value `measured` that the present input() has given and chooses the input that
   /// should give `wanted`; the first two calls of a probe learn disturbance and response.
   void adjust(double measured, double wanted)
