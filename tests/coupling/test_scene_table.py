@@ -247,7 +247,8 @@ class Warnings(unittest.TestCase):
         viscosity = results[list(cases).index((micro, "0.09", "1.1e-6"))][0]
         self.assertIn("the viscosity of the fluid is 9e-05 Pa s", viscosity)
         bending = results[list(cases).index((micro, "0.11", "0.9e-6"))][0]
-        self.assertIn("the bending modulus of the cells of fix rbc/membrane mem is 9e-22 J", bending)
+        self.assertIn("the bending modulus of the cells of fix rbc/membrane mem is 9e-22 J",
+                      bending)
 
     def test_cells_that_begin_at_a_plate(self):
         lowest = -read_template(POTENTIALS / "rbc_162.mol")[0][:, 2].min()
