@@ -41,6 +41,7 @@ FixRBCWall::FixRBCWall(LAMMPS *lmp, int narg, char **arg) :
 FixRBCWall::~FixRBCWall()
 {
   if (modify->get_fix_by_id(id)) atom->delete_callback(id, Atom::GROW);
+  if (FixRBCFluid *const fix = fluid_fix()) fix->driven_flow().drop_walls();
 }
 
 /* ---------------------------------------------------------------------- */

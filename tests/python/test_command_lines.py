@@ -53,7 +53,16 @@ def attempt_here(script, *words):
             runpy.run_path(str(script), run_name="__main__")
         except SystemExit as end:
             return end.code, printed.getvalue()
+        finally:
+            forget_modules_of(script.parent)
     return 0, printed.getvalue()
+
+
+def forget_modules_of(folder):
+    """Modules of other folders have the same names."""
+    for name, module in list(sys.modules.items()):
+        if Path(getattr(module, "__file__", None) or "").parent == folder:
+            del sys.modules[name]
 
 
 class Arguments(unittest.TestCase):

@@ -55,8 +55,9 @@ class DrivenFlow : public StepPart, protected Pointers {
   const RigidWalls *walls() const { return walls_.get(); }
   const FlowPorts *ports() const { return ports_.get(); }
 
-  /// Call where a port ceases to exist; those that are left are taken in by the next run.
+  /// Call where a port or a wall ceases to exist; those that are left are taken in by the next run.
   void drop_ports() { ports_.reset(); }
+  void drop_walls() { walls_.reset(); }
 
   /// What drives the flow at the time of set_time...().
   const fluid::Forcing &forcing() const { return forcing_now_; }
