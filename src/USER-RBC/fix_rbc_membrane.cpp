@@ -189,7 +189,7 @@ rbc::SurfaceViscosity FixRBCMembrane::read_viscosity(Arguments &args)
 
 int FixRBCMembrane::setmask()
 {
-  return POST_NEIGHBOR | POST_FORCE | POST_RUN;
+  return POST_NEIGHBOR | POST_FORCE | END_OF_STEP | POST_RUN;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -301,6 +301,19 @@ void FixRBCMembrane::post_force(int vflag)
   cells.tally_virial(tally);
   cells.add_forces();
   energy_step = -1;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixRBCMembrane::end_of_step()
+{
+  cells.note_areas();
+}
+
+void FixRBCMembrane::post_run()
+{
+  end_of_run.set();
+  cells.warn_of_large_areas();
 }
 
 /* ---------------------------------------------------------------------- */

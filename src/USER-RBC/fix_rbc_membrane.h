@@ -27,7 +27,8 @@ class FixRBCMembrane : public Fix, public MembraneOwner, public CellWatcher {
   void post_neighbor() override;
   void setup(int) override;
   void post_force(int) override;
-  void post_run() override { end_of_run.set(); }
+  void end_of_step() override;
+  void post_run() override;
   double compute_scalar() override;
   double compute_vector(int) override;
   double memory_usage() override;

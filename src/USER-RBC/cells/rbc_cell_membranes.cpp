@@ -22,10 +22,6 @@ using rbc::Vec3;
 
 static constexpr double VOLUME_STEPS = 10.0;
 
-// cells whose edges are this much longer than in the template were hardly stretched by a flow
-
-static constexpr double TORN = 3.0;
-
 /* ---------------------------------------------------------------------- */
 
 CellMembranes::CellMembranes(LAMMPS *lmp, std::string style, int groupbit,
@@ -82,6 +78,7 @@ void CellMembranes::start_run()
 {
   settings_.swelling.check(lmp, "fix rbc/membrane swell");
   stop_ = own_stop_;
+  largest_growth_ = {};
   cells_.identify();
 }
 
@@ -98,21 +95,6 @@ void CellMembranes::update_ownership()
     shared_gradient_.resize(shared * shape().vertex_count());
   }
   linear_at_.resize(is_thinning() ? count * shape().vertex_count() : 0);
-}
-
-/* ----------------------------------------------------------------------
-   a box that was changed without its atoms tears those cells that lie across its sides
-------------------------------------------------------------------------- */
-
-void CellMembranes::warn_of_torn_cells()
-{
-  const CellImages::Stretch stretch = cells_.largest_stretch();
-  if (stretch.ratio > TORN && comm->me == 0)
-    error->warning(FLERR,
-                   "{}: an edge of the cell with molecule ID {} is {:.3g} times as long as in its "
-                   "template at the start of the run; cells across periodic sides are torn if the "
-                   "box is changed without its atoms (change_box without remap, read_dump)",
-                   style_, stretch.molecule, stretch.ratio);
 }
 
 /* ----------------------------------------------------------------------

@@ -59,6 +59,11 @@ class CellMembranes : public StepPart, protected Pointers {
   /// Collective, after update_ownership() at the start of a run: warns of cells that look torn.
   void warn_of_torn_cells();
 
+  /// Where changes of area are resisted: call at the end of each step, and warn_of_large_areas(),
+  /// which is collective, at that of a run. It warns of an area at which red cells burst.
+  void note_areas();
+  void warn_of_large_areas();
+
   /// Distance from an owned vertex within which it needs its neighbors, as edges may be stretched.
   double ghost_reach() const;
 
@@ -182,6 +187,10 @@ class CellMembranes : public StepPart, protected Pointers {
 
   // of all cells here
   std::vector<double> sizes_;    ///< area and volume of each
+  struct {
+    double value = 0;
+    tagint molecule = 0;
+  } largest_growth_;    ///< of an area since the start of the run, over that of the template
   std::vector<double> volume_rates_, sums_;
   std::vector<rbc::Vec3> shared_gradient_;    ///< of each vertex of the cells that ranks share
   std::vector<rbc::Vec3> linear_at_;          ///< velocity of each vertex
