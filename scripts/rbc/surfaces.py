@@ -6,13 +6,17 @@ from typing import NamedTuple
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkIdList
-from vtkmodules.vtkFiltersExtraction import vtkExtractCells
 from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 from vtkmodules.vtkIOXML import (
     vtkXMLPolyDataReader, vtkXMLPolyDataWriter, vtkXMLPPolyDataReader)
 
 from rbc.errors import InputError
 from rbc.text_files import Columns, refuse_all_but_vtk
+
+try:
+    from vtkmodules.vtkFiltersCore import vtkExtractCells
+except ImportError:    # before VTK 9.3
+    from vtkmodules.vtkFiltersExtraction import vtkExtractCells
 
 
 class Surfaces(NamedTuple):

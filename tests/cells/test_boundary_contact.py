@@ -224,7 +224,7 @@ class Walls(unittest.TestCase):
         regions = {
             "box": "region vessel block 2.2 9.8 INF INF 3.1 8.9 units box",
             "bore through a slab": "region bore cylinder z 6 6 3.8 INF INF units box\n"
-                                   "region slab block INF INF INF INF 3.2 8.8 units box\n"
+                                   "region slab block INF INF INF INF 3.1 8.9 units box\n"
                                    "region vessel intersect 2 bore slab",
             "moving": "variable shift equal 0.1\n"
                       "region vessel sphere 6 6 6 4.0 units box move v_shift NULL NULL"}
