@@ -33,7 +33,8 @@ SCENES = {
     "tube-poiseuille": (dict(length=9.6), 400, DIAMETER),
     "fahraeus": (dict(length=8.4, hematocrit=0.45, shape="rbc_642", dx=0.6), 400, DIAMETER),
     "throat": (dict(length=4, width=2, throat=1.2, hematocrit=0.3), 200, DIAMETER),
-    "suspension": (dict(cells=64, rate=100), 120, DIAMETER)}
+    "suspension": (dict(cells=64, rate=100), 120, DIAMETER),
+    "stream": (dict(dense=1, tol=1e-11), 100, DIAMETER)}    # cells enter and leave
 
 
 def script(name, variables, steps):
@@ -48,17 +49,27 @@ def compare(name):
     variables, steps, diameter = SCENES[name]
     runs = {ranks: run(script(name, variables, steps), ranks, timeout=3600) for ranks in RANKS}
     dumps = {ranks: result.dump() for ranks, result in runs.items()}
-    alone, rows = dumps[1], []
-    for frame, step in enumerate(alone.steps):
-        there = alone.positions(frame)
+    rows = []
+    for frame, step in enumerate(dumps[1].steps):
+        there = places(dumps[1], frame)
         row = {"scene": name, "step": step,
-               "moved_diameters":
-                   f"{np.linalg.norm(there - alone.positions(0), axis=1).max() / diameter:.4g}"}
+               "moved_diameters": f"{farthest(there, places(dumps[1], 0)) / diameter:.4g}"}
         for ranks in RANKS[1:]:
-            apart = np.linalg.norm(dumps[ranks].positions(frame) - there, axis=1).max() / diameter
+            here = places(dumps[ranks], frame)
+            apart = farthest(here, there) / diameter if here.keys() == there.keys() else np.inf
             row[f"apart_{ranks}_ranks"] = f"{apart:.3g}"
         rows.append(row)
     return rows
+
+
+def places(dump, frame):
+    """{atom ID: position}."""
+    return dict(zip(dump("id", frame=frame).astype(int).tolist(), dump.positions(frame)))
+
+
+def farthest(one, other):
+    """Largest distance between atoms that are in both."""
+    return max(np.linalg.norm(one[atom] - other[atom]) for atom in one.keys() & other.keys())
 
 
 def draw(rows, path):
