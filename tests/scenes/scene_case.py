@@ -24,7 +24,8 @@ def run_example(name, ranks=1, timeout=500, **variables):
 def shortened(script, group, steps, every):
     """The script with its long run cut to some steps, and atoms of the group dumped in it."""
     dump = dump_line(every, columns="id xu yu zu").replace("dump atoms all", f"dump atoms {group}")
-    script, runs = re.subn(r"^run +(\d{5,}|\$\{steps\})$", f"{dump}\nrun {steps}", script, flags=re.MULTILINE)
+    script, runs = re.subn(r"^run +(\d{5,}|\$\{steps\})$", f"{dump}\nrun {steps}", script,
+                           flags=re.MULTILINE)
     if runs != 1:
         raise ValueError(f"the script has {runs} long runs")
     return script
