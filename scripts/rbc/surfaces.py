@@ -15,7 +15,7 @@ from rbc.text_files import Columns, refuse_all_but_vtk
 
 try:
     from vtkmodules.vtkFiltersCore import vtkExtractCells
-except ImportError:    # before VTK 9.3
+except ImportError:    # in older versions of VTK
     from vtkmodules.vtkFiltersExtraction import vtkExtractCells
 
 

@@ -1,4 +1,4 @@
-// The part of CellMembranes that warns of cells which no flow has made so.
+// The part of CellMembranes that warns of shapes which no red cell has.
 
 #include "cells/rbc_cell_membranes.h"
 
@@ -44,6 +44,7 @@ void CellMembranes::note_areas()
 
 void CellMembranes::warn_of_large_areas()
 {
+  if (settings_.elastic.global_area == 0) return;
   struct {
     double growth;
     int rank;
@@ -55,7 +56,7 @@ void CellMembranes::warn_of_large_areas()
   if (comm->me == 0)
     error->warning(FLERR,
                    "{}: the area of the cell with molecule ID {} was up to {:.3g} percent larger "
-                   "than in its template, and red cells burst at 2 to 4 percent; a larger K of "
-                   "area, now {:.3g}, keeps it",
+                   "than in its template, and red cells burst at 2 to 4 percent; a larger "
+                   "kglobal of area, now {:.3g}, makes it grow less",
                    style_, molecule, 100 * largest.growth, settings_.elastic.global_area);
 }
